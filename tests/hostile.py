@@ -175,7 +175,7 @@ def late():
 
 def part(size, shard="0/1"):
     """The header of a part, without blocks."""
-    header = (f"halflight part 1\nversion 0.1.0\nscene {'0' * 64}\nview own\nlayers none\nsize {size}\n"
+    header = (f"halflight part 2\nversion 0.1.0\nscene {'0' * 64}\nview own\nlayers none\nsize {size}\n"
               "region none\ndepth 8\nseed 0\naov none\nintegrator whitted\nfilter box\ntransfer linear\n"
               f"exposure 0\nfalloff none\ngloss none\nshard {shard}\n").encode()
     return header + b"crc %08x\n" % zlib.crc32(header)

@@ -11,6 +11,7 @@ pub mod faults;
 mod lock;
 mod owner;
 mod replace;
+pub mod state_folder;
 mod stream;
 mod target;
 mod temporary;

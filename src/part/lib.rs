@@ -5,16 +5,26 @@
 //! last record are good, and the tracing [continues](Part::open) from them. A picture traced by one
 //! process has one part; for several, [`shard`]s say whose blocks are whose, and a [merge](mod@merge) puts
 //! their parts together.
+//!
+//! The interface keeps its full-size [`traces`] as parts, too: a trace and a render of the same film
+//! continue each other.
 
+mod contents;
 mod header;
 mod merge;
+mod reader;
 mod record;
 mod shard;
 #[cfg(test)]
 mod tests;
+mod traces;
 mod writer;
 
-pub use header::{Difference, Header};
+pub use contents::{Contents, Furthest};
+pub use header::{Difference, Header, OldForm};
 pub use merge::{Merged, Unmerged, merge, missing, ranges};
+pub use reader::Unreadable;
+pub use record::Goal;
 pub use shard::{MOST_SHARDS, Shard};
+pub use traces::{NoTrace, Traces, find_part};
 pub use writer::{Part, Refused, path_beside};

@@ -1,19 +1,15 @@
 //! The picture that parts make together.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::File;
-use std::io::{self, BufReader, Seek};
+use std::io;
 use std::path::{Path, PathBuf};
 
-use super::header::{Difference, Header};
+use super::header::{Difference, Header, OldForm};
+use super::reader::{Reader, Unreadable};
 use super::record::{Damage, Record};
 use super::shard::{Shard, deal};
-use super::writer::blocks;
 use file::ReadError;
 use render::{Assembly, Block, Frame, Frames, Provenance, Refusal};
-
-/// The size of the buffer that parts are read through, in bytes.
-const CHUNK: usize = 1 << 20;
 
 /// A picture put together of parts.
 #[derive(Debug)]
@@ -48,6 +44,14 @@ pub enum Unmerged {
     NoPart {
         /// The file.
         path: PathBuf,
+    },
+    /// A part has the form of an earlier version.
+    #[error("{path} {form}", path = path.display())]
+    Old {
+        /// The part.
+        path: PathBuf,
+        /// Its form.
+        form: OldForm,
     },
     /// A part is not as it was written.
     #[error("{path} is damaged from byte {offset} on; continue it with --resume", path = path.display())]
@@ -136,8 +140,8 @@ pub fn merge(parts: &[PathBuf], frames: Frames) -> Result<Merged, Unmerged> {
     survey.check()?;
     let mut assembly = Assembly::new(survey.header.picture.settings, frames)?;
     for path in parts {
-        let (mut reader, header) = Reader::open(path)?;
-        if header.difference(&survey.header).is_some() {
+        let mut reader = open(path)?;
+        if reader.header().difference(&survey.header).is_some() {
             return Err(Unmerged::Io {
                 path: path.clone(),
                 source: io::Error::other(
@@ -145,7 +149,7 @@ pub fn merge(parts: &[PathBuf], frames: Frames) -> Result<Merged, Unmerged> {
                 ),
             });
         }
-        while let Some(record) = reader.next()? {
+        while let Some(record) = next(&mut reader, path)? {
             if let Record::Block(block) = record {
                 assembly.place(&block);
             }
@@ -162,10 +166,11 @@ pub fn merge(parts: &[PathBuf], frames: Frames) -> Result<Merged, Unmerged> {
 fn survey(parts: &[PathBuf]) -> Result<Survey, Unmerged> {
     let mut survey: Option<Survey> = None;
     for path in parts {
-        let (mut reader, header) = Reader::open(path)?;
+        let mut reader = open(path)?;
+        let header = reader.header().clone();
         let survey = survey.get_or_insert_with(|| Survey::new(header.clone()));
         survey.add(path, &header)?;
-        while let Some(record) = reader.next()? {
+        while let Some(record) = next(&mut reader, path)? {
             survey.note(header.shard.index, &record);
         }
     }
@@ -185,17 +190,18 @@ pub fn missing(parts: &[PathBuf]) -> Result<(Vec<u32>, Vec<Unmerged>), Unmerged>
     let mut survey: Option<Survey> = None;
     let mut damaged = Vec::new();
     for path in parts {
-        let (mut reader, header) = match Reader::open(path) {
+        let mut reader = match open(path) {
             Err(no_part @ Unmerged::NoPart { .. }) => {
                 damaged.push(no_part);
                 continue;
             }
             opened => opened?,
         };
+        let header = reader.header().clone();
         let survey = survey.get_or_insert_with(|| Survey::new(header.clone()));
         survey.add(path, &header)?;
         loop {
-            match reader.next() {
+            match next(&mut reader, path) {
                 Ok(Some(record)) => survey.note(header.shard.index, &record),
                 Ok(None) => break,
                 Err(error @ Unmerged::Io { .. }) => return Err(error),
@@ -237,52 +243,36 @@ fn shards_of(shards: &[u32], count: u32) -> String {
     }
 }
 
-/// A part that is read.
-struct Reader<'p> {
-    path: &'p Path,
-    from: BufReader<File>,
-    header: Header,
-    crc: u32,
+/// Opens a part, which must be a file.
+fn open(path: &Path) -> Result<Reader, Unmerged> {
+    let path = || path.to_owned();
+    let io = |source| Unmerged::Io {
+        path: path(),
+        source,
+    };
+    let file = file::open(&path()).map_err(|error| match error {
+        ReadError::NotRegular { path, kind } => Unmerged::NotRegular { path, kind },
+        ReadError::Io { source, .. } => io(source),
+        ReadError::NotFound { .. } => io(io::Error::new(io::ErrorKind::NotFound, "no such file")),
+        other => io(io::Error::other(other.to_string())),
+    })?;
+    Reader::of(file).map_err(|unreadable| match unreadable {
+        Unreadable::Io(source) => io(source),
+        Unreadable::NoPart => Unmerged::NoPart { path: path() },
+        Unreadable::Old(form) => Unmerged::Old { path: path(), form },
+    })
 }
 
-impl<'p> Reader<'p> {
-    fn open(path: &'p Path) -> Result<(Self, Header), Unmerged> {
-        let io = |source| Unmerged::Io {
-            path: path.to_owned(),
-            source,
-        };
-        let file = file::open(path).map_err(|error| match error {
-            ReadError::NotRegular { path, kind } => Unmerged::NotRegular { path, kind },
-            ReadError::Io { source, .. } => io(source),
-            ReadError::NotFound { .. } => {
-                io(io::Error::new(io::ErrorKind::NotFound, "no such file"))
-            }
-            other => io(io::Error::other(other.to_string())),
-        })?;
-        let mut from = BufReader::with_capacity(CHUNK, file);
-        let header = Header::read(&mut from).map_err(io)?;
-        let (header, crc) = header.ok_or_else(|| Unmerged::NoPart {
-            path: path.to_owned(),
-        })?;
-        let reader = Self {
-            path,
-            from,
-            header: header.clone(),
-            crc,
-        };
-        Ok((reader, header))
-    }
-
-    fn next(&mut self) -> Result<Option<Record>, Unmerged> {
-        let path = || self.path.to_owned();
-        let io = |source| Unmerged::Io {
-            path: path(),
-            source,
-        };
-        let offset = self.from.stream_position().map_err(io)?;
-        let record = Record::read(&mut self.from, blocks(&self.header), self.crc);
-        record.map_err(|damage| match damage {
-            Damage::Io(source) => io(source),
+/// The next record of a part.
+fn next(reader: &mut Reader, path: &Path) -> Result<Option<Record>, Unmerged> {
+    let path = || path.to_owned();
+    reader.next().map_err(|damage| {
+        let offset = reader.offset();
+        match damage {
+            Damage::Io(source) => Unmerged::Io {
+                path: path(),
+                source,
+            },
             Damage::Short => Unmerged::Short {
                 path: path(),
                 offset,
@@ -291,8 +281,8 @@ impl<'p> Reader<'p> {
                 path: path(),
                 offset,
             },
-        })
-    }
+        }
+    })
 }
 
 /// What the parts hold.
@@ -342,8 +332,8 @@ impl Survey {
 
     fn note(&mut self, shard: u32, record: &Record) {
         match record {
-            Record::Goal(spp) => {
-                self.goals.insert(shard, *spp);
+            Record::Goal(goal) => {
+                self.goals.insert(shard, goal.spp);
             }
             Record::Block(Block {
                 number, samples, ..
@@ -361,7 +351,7 @@ impl Survey {
     /// How many blocks are not traced to the end, and the shards that have to be traced on for them.
     fn lacking(&self) -> (u32, BTreeSet<u32>) {
         let goal = self.goal();
-        let owners = deal(blocks(&self.header), self.header.shard.count);
+        let owners = deal(self.header.blocks(), self.header.shard.count);
         let mut shards = BTreeSet::new();
         let mut count = 0;
         for (number, owner) in (0..).zip(owners) {
@@ -399,7 +389,7 @@ impl Survey {
         }
         Err(Unmerged::Holes {
             blocks: lacking,
-            all: blocks(&self.header).count(),
+            all: self.header.blocks().count(),
             shards: shards.into_iter().collect(),
             count,
         })

@@ -2,27 +2,42 @@
 //!
 //! | record | bytes, integers and floats in little-endian order |
 //! |---|---|
-//! | goal | `G`, samples of each pixel as u32, CRC |
-//! | block | `B`, or `A` if some squares stopped, number and samples as u32, rays, shadow rays and samples over budget as u64, the number of pixels of `half` as u32 (all or none), sums as 3 f64 a pixel, squared errors as f32, sums at half as 3 f64, with `A` the samples of each of 64 squares as u32, CRC |
+//! | goal | `G`, samples of each pixel as u32, time spent up to then as nanoseconds in u64, CRC |
+//! | block | `B`, which of the lists after the objects there are as bits of u8 in their order, number and samples as u32, rays, shadow rays and samples over budget as u64, of each pixel the sums as 3 f64, squared errors as f32, variances as f32 and objects as u32, sums at half as 3 f64, the touched sets as u64 with rays as u32, the samples of 64 squares apart as u32, CRC |
 //!
 //! Each CRC is the CRC-32 of the bytes of its record, begun with that of the header: records do not
 //! fit into another file. A later record replaces an earlier one of the same kind and number.
 
 use std::io::{self, Read};
+use std::time::Duration;
 
 use crc32fast::Hasher;
 use glam::DVec3;
 
-use render::{Block, Blocks, Counts};
+use render::{Block, Blocks, Cause, Counts};
 
 const GOAL: u8 = b'G';
 const BLOCK: u8 = b'B';
-const ADAPTIVE: u8 = b'A';
+
+/// Bytes of a goal.
+const GOAL_BYTES: usize = 1 + 4 + 8;
 
 /// Bytes before the pixels of a block.
-const BLOCK_HEAD: usize = 1 + 4 + 4 + 3 * 8 + 4;
+const BLOCK_HEAD: usize = 1 + 1 + 4 + 4 + 3 * 8;
 
-/// Squares of a block that stop together, each with its samples.
+/// Bytes of a pixel in the lists that each block has.
+const PIXEL: usize = SUM + 4 + 4 + 4;
+
+/// Bytes of a pixel's sum, and of what it depends on.
+const SUM: usize = 3 * 8;
+const CAUSE: usize = 8 + 4;
+
+/// The bits of the lists that some blocks have.
+const HALF: u8 = 1;
+const CAUSES: u8 = 2;
+const APART: u8 = 4;
+
+/// Squares of a block that take samples together.
 const SQUARES: usize = 64;
 
 /// Bytes of a checksum.
@@ -31,10 +46,19 @@ const CRC: usize = 4;
 /// A record.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Record {
-    /// The samples of each pixel that the blocks after it are traced to.
-    Goal(u32),
+    /// What the blocks after it are traced to.
+    Goal(Goal),
     /// A block as far as it is traced.
     Block(Block),
+}
+
+/// How far blocks are traced.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Goal {
+    /// Samples of each pixel.
+    pub spp: u32,
+    /// The time spent up to then, in all processes.
+    pub time: Duration,
 }
 
 /// Why no record can be read.
@@ -53,9 +77,12 @@ impl Record {
     pub(super) fn bytes(&self, header: u32) -> Vec<u8> {
         let mut bytes = Vec::new();
         match self {
-            Self::Goal(spp) => {
+            Self::Goal(Goal { spp, time }) => {
                 bytes.push(GOAL);
                 bytes.extend(spp.to_le_bytes());
+                // More than five centuries.
+                let time = u64::try_from(time.as_nanos()).unwrap_or(u64::MAX);
+                bytes.extend(time.to_le_bytes());
             }
             Self::Block(block) => put_block(block, &mut bytes),
         }
@@ -80,8 +107,8 @@ impl Record {
             };
         }
         let head = match bytes[0] {
-            GOAL => 5,
-            BLOCK | ADAPTIVE => BLOCK_HEAD,
+            GOAL => GOAL_BYTES,
+            BLOCK => BLOCK_HEAD,
             _ => return Err(Damage::Corrupt),
         };
         let missing = head - bytes.len();
@@ -89,17 +116,13 @@ impl Record {
             fill(from, bytes, count)?.then_some(()).ok_or(Damage::Short)
         };
         more(&mut bytes, missing)?;
-        if bytes[0] != GOAL {
-            let (number, half) = (u32_at(&bytes, 1), u32_at(&bytes, 33));
-            if blocks.count() <= number {
+        if bytes[0] == BLOCK {
+            let (lists, number) = (bytes[1], u32_at(&bytes, 2));
+            if blocks.count() <= number || HALF | CAUSES | APART < lists {
                 return Err(Damage::Corrupt);
             }
             let area = blocks.area(number);
-            if half != 0 && half as usize != area {
-                return Err(Damage::Corrupt);
-            }
-            let stopped = if bytes[0] == ADAPTIVE { 4 * SQUARES } else { 0 };
-            more(&mut bytes, area * (24 + 4) + half as usize * 24 + stopped)?;
+            more(&mut bytes, PIXEL * area + Lists::of(lists, area).bytes())?;
         }
         more(&mut bytes, CRC)?;
         let (said, crc) = bytes.split_at(bytes.len() - CRC);
@@ -107,7 +130,10 @@ impl Record {
             return Err(Damage::Corrupt);
         }
         Ok(Some(match said[0] {
-            GOAL => Self::Goal(u32_at(said, 1)),
+            GOAL => Self::Goal(Goal {
+                spp: u32_at(said, 1),
+                time: Duration::from_nanos(u64_at(said, 5)),
+            }),
             _ => Self::Block(block(said, blocks)),
         }))
     }
@@ -125,14 +151,37 @@ fn checksum(header: u32, bytes: &[u8]) -> u32 {
     hasher.finalize()
 }
 
+/// The bytes of the lists that some blocks have.
+struct Lists {
+    half: usize,
+    causes: usize,
+    apart: usize,
+}
+
+impl Lists {
+    /// Those of a block of this many pixels, by their bits.
+    fn of(bits: u8, area: usize) -> Self {
+        let there = |bit: u8, bytes: usize| if bits & bit == 0 { 0 } else { bytes };
+        Self {
+            half: there(HALF, SUM * area),
+            causes: there(CAUSES, CAUSE * area),
+            apart: there(APART, 4 * SQUARES),
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        self.half + self.causes + self.apart
+    }
+}
+
 fn put_block(block: &Block, bytes: &mut Vec<u8>) {
-    let pixels = block.sums.len() * (24 + 4) + block.half.len() * 24;
-    bytes.reserve(BLOCK_HEAD + pixels + 4 * block.stopped.len() + CRC);
-    bytes.push(if block.stopped.is_empty() {
-        BLOCK
-    } else {
-        ADAPTIVE
-    });
+    let bit = |bit: u8, is_empty: bool| if is_empty { 0 } else { bit };
+    let lists = bit(HALF, block.half.is_empty())
+        | bit(CAUSES, block.causes.is_empty())
+        | bit(APART, block.apart.is_empty());
+    let area = block.sums.len();
+    bytes.reserve(BLOCK_HEAD + PIXEL * area + Lists::of(lists, area).bytes() + CRC);
+    bytes.extend([BLOCK, lists]);
     bytes.extend(block.number.to_le_bytes());
     bytes.extend(block.samples.to_le_bytes());
     let Counts {
@@ -140,18 +189,19 @@ fn put_block(block: &Block, bytes: &mut Vec<u8>) {
         shadow_rays,
         over_budget,
     } = block.counts;
-    bytes.extend(
-        [rays, shadow_rays, over_budget]
-            .map(u64::to_le_bytes)
-            .concat(),
-    );
-    bytes.extend((block.half.len() as u32).to_le_bytes());
+    let counts = [rays, shadow_rays, over_budget].map(u64::to_le_bytes);
+    bytes.extend(counts.as_flattened());
     put_sums(&block.sums, bytes);
-    let errors = block.squared_errors.iter();
-    bytes.extend(errors.flat_map(|error| error.to_le_bytes()));
+    for floats in [&block.squared_errors, &block.variances] {
+        bytes.extend(floats.iter().flat_map(|float| float.to_le_bytes()));
+    }
+    bytes.extend(block.objects.iter().flat_map(|object| object.to_le_bytes()));
     put_sums(&block.half, bytes);
-    let stopped = block.stopped.iter();
-    bytes.extend(stopped.flat_map(|samples| samples.to_le_bytes()));
+    for Cause { touched, rays } in &block.causes {
+        bytes.extend(touched.to_le_bytes());
+        bytes.extend(rays.to_le_bytes());
+    }
+    bytes.extend(block.apart.iter().flat_map(|samples| samples.to_le_bytes()));
 }
 
 fn put_sums(sums: &[DVec3], bytes: &mut Vec<u8>) {
@@ -162,37 +212,55 @@ fn put_sums(sums: &[DVec3], bytes: &mut Vec<u8>) {
 
 /// The block of a record whose checksum is right.
 fn block(bytes: &[u8], blocks: Blocks) -> Block {
-    let u64_at = |at: usize| u64::from_le_bytes(array_at(bytes, at));
-    let number = u32_at(bytes, 1);
+    let (lists, number) = (bytes[1], u32_at(bytes, 2));
     let area = blocks.area(number);
-    let (sums, rest) = bytes[BLOCK_HEAD..].split_at(24 * area);
-    let (errors, rest) = rest.split_at(4 * area);
-    let (half, stopped) = rest.split_at(24 * u32_at(bytes, 33) as usize);
+    let lists = Lists::of(lists, area);
+    let mut rest = &bytes[BLOCK_HEAD..];
+    let mut next = |count: usize| {
+        let (list, others) = rest.split_at(count);
+        rest = others;
+        list
+    };
     let sums_of = |bytes: &[u8]| {
-        let sums = bytes.chunks_exact(24);
         let channel = |sum: &[u8], at| f64::from_le_bytes(array_at(sum, at));
+        let sums = bytes.chunks_exact(SUM);
         sums.map(|sum| DVec3::new(channel(sum, 0), channel(sum, 8), channel(sum, 16)))
             .collect()
     };
-    let errors = errors.chunks_exact(4);
+    let floats = |bytes: &[u8]| {
+        let floats = bytes.chunks_exact(4);
+        floats
+            .map(|float| f32::from_le_bytes(array_at(float, 0)))
+            .collect()
+    };
+    let integers = |bytes: &[u8]| {
+        let integers = bytes.chunks_exact(4);
+        integers.map(|integer| u32_at(integer, 0)).collect()
+    };
+    let cause = |bytes: &[u8]| Cause {
+        touched: u64_at(bytes, 0),
+        rays: u32_at(bytes, 8),
+    };
     Block {
         number,
-        samples: u32_at(bytes, 5),
-        stopped: stopped
-            .chunks_exact(4)
-            .map(|samples| u32_at(samples, 0))
-            .collect(),
-        sums: sums_of(sums),
-        half: sums_of(half),
-        squared_errors: errors
-            .map(|error| f32::from_le_bytes(array_at(error, 0)))
-            .collect(),
+        samples: u32_at(bytes, 6),
         counts: Counts {
-            rays: u64_at(9),
-            shadow_rays: u64_at(17),
-            over_budget: u64_at(25),
+            rays: u64_at(bytes, 10),
+            shadow_rays: u64_at(bytes, 18),
+            over_budget: u64_at(bytes, 26),
         },
+        sums: sums_of(next(SUM * area)),
+        squared_errors: floats(next(4 * area)),
+        variances: floats(next(4 * area)),
+        objects: integers(next(4 * area)),
+        half: sums_of(next(lists.half)),
+        causes: next(lists.causes).chunks_exact(CAUSE).map(cause).collect(),
+        apart: integers(next(lists.apart)),
     }
+}
+
+fn u64_at(bytes: &[u8], at: usize) -> u64 {
+    u64::from_le_bytes(array_at(bytes, at))
 }
 
 fn u32_at(bytes: &[u8], at: usize) -> u32 {

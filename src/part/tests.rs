@@ -7,7 +7,7 @@ use glam::DVec3;
 use tempfile::TempDir;
 
 use super::*;
-use render::{Block, Blocks, Counts, Frames, Provenance, Settings};
+use render::{Block, Blocks, Cause, Counts, Frames, Provenance, Settings};
 use scene::{Rendering, Size, Viewpoint};
 
 const SIZE: Size = Size {
@@ -45,11 +45,23 @@ fn block(number: u32, samples: u32) -> Block {
     let sums: Vec<_> = (0..area).map(sum).collect();
     Block {
         samples,
-        stopped: if number == 1 {
+        apart: if number == 1 {
             (0..64).collect()
         } else {
             Vec::new()
         },
+        causes: if number == 1 {
+            let touched = |at: usize| 1 << (at % 64);
+            let cause = |at| Cause {
+                touched: touched(at),
+                rays: at as u32,
+            };
+            (0..area).map(cause).collect()
+        } else {
+            Vec::new()
+        },
+        variances: vec![0.25; area],
+        objects: (0..area as u32).collect(),
         half: if samples.is_power_of_two() {
             Vec::new()
         } else {
@@ -295,9 +307,30 @@ fn a_part_has_one_writer_and_is_not_replaced() {
     drop(writer);
     // Another text, and the beginning of another shard's header.
     let (other, _) = self::header("0/2").text();
-    for text in ["no part\n", "halflight part 2", &other[..other.len() - 14]] {
+    for text in ["no part\n", "halflight part 3", &other[..other.len() - 14]] {
         fs::write(&path, text).expect("it is written");
         assert!(matches!(Part::open(&path, &header), Err(Refused::NoPart)));
         assert_eq!(fs::read(&path).expect("it is there"), text.as_bytes());
+    }
+}
+
+/// A part of the first form, and a trace of the interface.
+#[test]
+fn earlier_forms_are_refused_by_name_and_left_alone() {
+    let folder = folder();
+    let header = header("0/1");
+    let path = path_beside(&folder.path().join("out.png"), header.shard);
+    for form in ["halflight part 1", "halflight trace 2"] {
+        let text = format!("{form}\nversion 0.1.0\nscene ab12\nview own\n\0");
+        fs::write(&path, &text).expect("it is written");
+        let said = format!(
+            "was written by an earlier build of version 0.1.0 in a form that is no longer read \
+             ({form}); finish it with that build, or delete it"
+        );
+        let refused = Part::open(&path, &header).expect_err("its form is another");
+        assert_eq!(refused.to_string(), format!("it {said}"));
+        let merged = error(std::slice::from_ref(&path));
+        assert_eq!(merged, format!("{} {said}", path.display()));
+        assert_eq!(fs::read_to_string(&path).expect("it is there"), text);
     }
 }

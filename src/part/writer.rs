@@ -1,48 +1,33 @@
 //! A part file that is written.
 
-use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::iter;
+use std::ops::Deref;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
-use super::header::{Difference, Header};
-use super::record::{Damage, Record};
+use super::contents::{Contents, Place};
+use super::header::{Difference, Header, OldForm};
+use super::reader::Unreadable;
+use super::record::{Goal, Record};
+use super::shard::Shard;
 use file::{Lock, lock};
-use render::{Block, Blocks, Counts};
+use render::{Block, Provenance};
 
 /// A part file open for writing, locked against other writers.
 #[derive(Debug)]
 pub struct Part {
-    file: File,
-    blocks: Blocks,
-    header_crc: u32,
-    /// The newest record of each block.
-    index: BTreeMap<u32, Place>,
-    /// The samples that blocks are traced to.
-    goal: Option<u32>,
+    contents: Contents,
     /// Bytes that were cut off because they hold no whole record.
     cut: u64,
-    /// Where the next record begins.
-    end: u64,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    /// Where it begins.
-    offset: u64,
-    samples: u32,
-    most_samples: u32,
-    counts: Counts,
-}
+impl Deref for Part {
+    type Target = Contents;
 
-impl Place {
-    fn of(block: &Block, offset: u64) -> Self {
-        Self {
-            offset,
-            samples: block.samples,
-            most_samples: block.most_samples(),
-            counts: block.counts,
-        }
+    fn deref(&self) -> &Contents {
+        &self.contents
     }
 }
 
@@ -64,12 +49,25 @@ pub enum Refused {
     /// It is not a part file, or its header is damaged.
     #[error("it is not a part file, or its header is damaged; delete it to start over")]
     NoPart,
+    /// It has the form of an earlier version.
+    #[error("it {0}")]
+    Old(OldForm),
     /// It is a part of another picture.
     #[error(
         "it belongs to another picture: {} {}, not {}; delete it to start over",
         .0.what, .0.theirs, .0.ours
     )]
     Other(Difference),
+}
+
+impl From<Unreadable> for Refused {
+    fn from(unreadable: Unreadable) -> Self {
+        match unreadable {
+            Unreadable::Io(error) => Self::Io(error),
+            Unreadable::NoPart => Self::NoPart,
+            Unreadable::Old(form) => Self::Old(form),
+        }
+    }
 }
 
 impl Part {
@@ -124,22 +122,18 @@ impl Part {
         let (text, header_crc) = header.text();
         file.rewind()?;
         file.write_all(text.as_bytes())?;
+        let end = text.len() as u64;
         Ok(Self {
-            file,
-            blocks: blocks(header),
-            header_crc,
-            index: BTreeMap::new(),
-            goal: None,
+            contents: Contents::none(file, header.clone(), header_crc, end),
             cut: 0,
-            end: text.len() as u64,
         })
     }
 
     /// Reads what was written before.
     fn scan(file: File, header: &Header) -> Result<Self, Refused> {
-        let mut from = BufReader::with_capacity(1 << 18, &file);
-        let (found, header_crc) = Header::read(&mut from)?.ok_or(Refused::NoPart)?;
-        if let Some(difference) = header.difference(&found) {
+        let contents = Contents::of(file)?;
+        let found = contents.header();
+        if let Some(difference) = header.difference(found) {
             return Err(Refused::Other(difference));
         }
         if found.shard != header.shard {
@@ -149,31 +143,9 @@ impl Part {
                 theirs: found.shard.to_string(),
             }));
         }
-        let blocks = blocks(header);
-        let (mut index, mut goal) = (BTreeMap::new(), None);
-        let mut offset = from.stream_position()?;
-        loop {
-            match Record::read(&mut from, blocks, header_crc) {
-                Ok(Some(Record::Goal(spp))) => goal = Some(spp),
-                Ok(Some(Record::Block(block))) => {
-                    index.insert(block.number, Place::of(&block, offset));
-                }
-                Err(Damage::Io(error)) => return Err(error.into()),
-                Ok(None) | Err(Damage::Short | Damage::Corrupt) => break,
-            }
-            offset = from.stream_position()?;
-        }
-        let cut = file.metadata()?.len() - offset;
-        file.set_len(offset)?;
-        Ok(Self {
-            file,
-            blocks,
-            header_crc,
-            index,
-            goal,
-            cut,
-            end: offset,
-        })
+        let cut = contents.file.metadata()?.len() - contents.end;
+        contents.file.set_len(contents.end)?;
+        Ok(Self { contents, cut })
     }
 
     /// Bytes that were cut off when it was opened.
@@ -181,56 +153,32 @@ impl Part {
         self.cut
     }
 
-    /// The blocks of its picture.
-    pub fn blocks(&self) -> Blocks {
-        self.blocks
-    }
-
-    /// Samples of each pixel of a block.
-    pub fn samples(&self, number: u32) -> u32 {
-        self.index.get(&number).map_or(0, |place| place.samples)
-    }
-
-    /// Samples of the pixels of a block that have most: fewer if all of them stopped.
-    pub fn most_samples(&self, number: u32) -> u32 {
-        let place = self.index.get(&number);
-        place.map_or(0, |place| place.most_samples)
-    }
-
-    /// The rays of all blocks, in this process and before.
-    pub fn counts(&self) -> Counts {
-        let counts = self.index.values().map(|place| place.counts);
-        counts.fold(Counts::default(), Counts::and)
-    }
-
-    /// A block as far as it was written.
-    pub fn block(&self, number: u32) -> io::Result<Block> {
-        let Some(place) = self.index.get(&number) else {
-            return Ok(Block::new(number, self.blocks));
-        };
-        let mut file = &self.file;
-        file.seek(SeekFrom::Start(place.offset))?;
-        match Record::read(&mut BufReader::new(file), self.blocks, self.header_crc) {
-            Ok(Some(Record::Block(block))) => Ok(block),
-            Err(Damage::Io(error)) => Err(error),
-            _ => Err(io::Error::other("it was changed by another process")),
-        }
-    }
-
     /// States how many samples the blocks are traced to from now on.
     pub fn aim(&mut self, spp: u32) -> io::Result<()> {
-        if self.goal != Some(spp) {
-            self.append(&Record::Goal(spp))?;
-            self.goal = Some(spp);
+        let time = self.goal().time;
+        self.set_goal(Goal { spp, time })
+    }
+
+    /// States how much time was spent on the blocks up to now, in all processes.
+    pub fn spend(&mut self, time: Duration) -> io::Result<()> {
+        let spp = self.goal().spp;
+        self.set_goal(Goal { spp, time })
+    }
+
+    fn set_goal(&mut self, goal: Goal) -> io::Result<()> {
+        if self.contents.goal != Some(goal) {
+            self.append(&Record::Goal(goal))?;
+            self.contents.goal = Some(goal);
         }
         Ok(())
     }
 
     /// Appends a block. If that fails, the file ends as before.
     pub fn put(&mut self, block: Block) -> io::Result<()> {
-        let (number, place) = (block.number, Place::of(&block, self.end));
+        let number = block.number;
+        let place = Place::of(&block, self.blocks(), self.end);
         self.append(&Record::Block(block))?;
-        self.index.insert(number, place);
+        self.contents.index.insert(number, place);
         Ok(())
     }
 
@@ -243,16 +191,16 @@ impl Part {
     fn append(&mut self, record: &Record) -> io::Result<()> {
         let bytes = record.bytes(self.header_crc);
         let begin = self.end;
-        let written = self
-            .file
+        let mut file = &self.file;
+        let written = file
             .seek(SeekFrom::Start(begin))
-            .and_then(|_| self.file.write_all(&bytes));
+            .and_then(|_| file.write_all(&bytes));
         if let Err(error) = written {
             // If this fails too, opening the file cuts it off.
             let _ = self.file.set_len(begin);
             return Err(error);
         }
-        self.end += bytes.len() as u64;
+        self.contents.end += bytes.len() as u64;
         Ok(())
     }
 }
@@ -266,14 +214,28 @@ fn is_begun(mut file: &File, header: &Header) -> io::Result<bool> {
     Ok(found.len() < text.len() && text.as_bytes().starts_with(&found))
 }
 
-/// The blocks of the picture that a part belongs to.
-pub(super) fn blocks(header: &Header) -> Blocks {
-    Blocks::of(header.picture.settings.traced().size())
+/// Writes all of a part that is the whole picture.
+pub(super) fn write_whole(
+    picture: &Provenance,
+    goal: Goal,
+    blocks: impl Iterator<Item = Block>,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let header = Header {
+        picture: picture.clone(),
+        shard: Shard::WHOLE,
+    };
+    let (text, header_crc) = header.text();
+    out.write_all(text.as_bytes())?;
+    for record in iter::once(Record::Goal(goal)).chain(blocks.map(Record::Block)) {
+        out.write_all(&record.bytes(header_crc))?;
+    }
+    Ok(())
 }
 
 /// The part file beside a picture, such as `out.part` or `out.3-8.part` beside `out.png`.
-pub fn path_beside(picture: &Path, shard: super::Shard) -> PathBuf {
-    let super::Shard { index, count } = shard;
+pub fn path_beside(picture: &Path, shard: Shard) -> PathBuf {
+    let Shard { index, count } = shard;
     picture.with_extension(match count {
         1 => "part".to_owned(),
         _ => format!("{index}-{count}.part"),

@@ -54,8 +54,8 @@ pub use crate::explain::{
     TracedRay, Unlisted, UnlitReason, Verdict,
 };
 pub use engine::{
-    Assembly, BLOCK, Block, BlockTracer, Blocks, Kept, Refusal, Renderer, Threads, check_memory,
-    memory_for, memory_for_blocks, photons_kept,
+    Assembly, BLOCK, Block, BlockTracer, Blocks, Cause, Kept, Refusal, Renderer, Threads,
+    check_memory, memory_for, memory_for_blocks, photons_kept,
 };
 pub use geometry::Side;
 pub use integrators::Counts;

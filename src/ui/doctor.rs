@@ -8,10 +8,10 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
 
-use super::state_folder::{self, Part};
 use super::terminal::interview::{self, Answers};
 use super::terminal::{self, Budget, Choice, ColourDepth, Protocol, Reply, query, tmux};
 use assets::Assets;
+use file::state_folder::{self, Store};
 use memory::Available;
 use render::{CAP, CAPS, vectors};
 use text::{alternatives, counted, visible};
@@ -295,7 +295,7 @@ fn memory_limits() -> Vec<String> {
 fn folders(scene: Option<&Path>, folder: &Path) -> Vec<String> {
     let current = std::env::current_dir();
     let current = current.map_or_else(|error| error.to_string(), |path| path.display().to_string());
-    let kept = match state_folder::place(Part::Edits) {
+    let kept = match state_folder::place(Store::Edits) {
         Ok(folder) => folder.display().to_string(),
         Err(error) => format!("nowhere: {error}"),
     };

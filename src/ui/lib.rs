@@ -22,7 +22,7 @@
 //! | [`msg`], `event`, [`queue`] | messages and effects; what arrives in the inbox; threads that carry out requests |
 //! | [`arrange`], [`layout`], [`listing`], `error_panel`, [`history_layout`] | where things are on screen, for drawing and for the mouse alike |
 //! | [`scene_reading`], [`reference`](mod@reference), [`revision`], [`history_scene`], [`reel`] | what background work is asked for, and what it answers |
-//! | [`doctor`], `options`, `pixels`, `theme`, `state_folder`, `text_width` | what was detected and chosen, where it is kept, and text made to fit |
+//! | [`doctor`], `options`, `pixels`, `theme`, `text_width` | what was detected and chosen, and text made to fit |
 
 /// A table of cases: in each row, what is given and what is expected of it, as one tuple.
 #[cfg(test)]
@@ -54,7 +54,6 @@ pub mod revision;
 pub mod scene_reading;
 pub mod service;
 mod shell;
-mod state_folder;
 pub mod terminal;
 mod text_width;
 mod theme;
@@ -67,7 +66,7 @@ use std::path::{Path, PathBuf};
 use app::{App, Opening, OpeningText, Preferences};
 use arrange::PanelSizes;
 use assets::check_folders;
-use file::ReadError;
+use file::{ReadError, state_folder};
 use keymap::Keymap;
 use language::Language;
 use memory::Need;

@@ -218,9 +218,9 @@ pub enum Effect {
     /// Starts tracing this picture, reported by [`Msg::Started`] and [`Msg::Frame`], or by
     /// [`Msg::Refused`].
     Trace(Target, Job),
-    /// Starts the full-size trace from what an earlier run left of it, reported by
-    /// [`Msg::Recalled`], and otherwise as [`Effect::Trace`].
-    Recall(Job, Origin),
+    /// Starts the full-size trace from what an earlier run left of it, or a render of the picture with
+    /// this path, reported by [`Msg::Recalled`], and otherwise as [`Effect::Trace`].
+    Recall(Job, Origin, PathBuf),
     /// Stops tracing this picture and forgets it.
     Stop(Target),
     /// Explains a sample of a pixel of this frame, reported by [`Msg::Explained`] unless another

@@ -242,7 +242,10 @@ impl Opened {
             .filter(|&number| part.samples(number) < spp);
         let lacking: Vec<_> = lacking.collect();
         let begun = lacking.iter().filter(|&&number| 0 < part.samples(number));
-        let begun = begun.map(|&number| Ok((number, part.block(number)?)));
+        let begun = begun.map(|&number| {
+            let block = part.block(number)?.continued_to(spp, blocks);
+            Ok((number, block))
+        });
         let begun: Result<BTreeMap<_, _>, _> = begun.collect();
         let mut begun = begun.map_err(|source| self.unwritten(source))?;
         let mut tally = self.tally(spp, &begun);
@@ -276,8 +279,11 @@ impl Opened {
     fn tally(&self, spp: u32, begun: &BTreeMap<u32, Block>) -> Tally {
         let Self { part, numbers, .. } = self;
         let reached = numbers.iter().map(|&number| {
-            let counts = begun.get(&number).map(|block| block.counts);
-            (number, part.samples(number), counts.unwrap_or_default())
+            let reached = begun.get(&number);
+            let reached = reached.map(|block| (block.samples, block.counts));
+            let (samples, counts) =
+                reached.unwrap_or_else(|| (part.samples(number), Counts::default()));
+            (number, samples, counts)
         });
         Tally::new(spp, part.blocks(), reached)
     }

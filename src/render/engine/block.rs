@@ -6,9 +6,10 @@ use super::adaptive::{SQUARES, Squares, go_on, square};
 use super::blocks::Blocks;
 use super::noise::Doubling;
 use super::pass_schedule::Step;
-use super::tile::Work;
+use super::tile::{Cause, Work};
 use crate::integrators::{Counts, FrameContext};
-use crate::job::{Aov, Region, Settings};
+use crate::job::{Aov, NO_OBJECT, Region, Settings};
+use crate::picture::UNKNOWN;
 use scene::{LEAST_ADAPTIVE_SPP, Rgb};
 
 /// Pixels traced together: most of a block's share of the cache.
@@ -20,19 +21,27 @@ const TOGETHER: usize = 256;
 pub struct Block {
     /// Its number in the picture.
     pub number: u32,
-    /// Samples of each pixel, except those that stopped.
+    /// Samples of each pixel, except in the squares that are apart.
     pub samples: u32,
-    /// The samples of the pixels of each square of 4×4 that stopped, see [`Settings::noise`], in rows
-    /// of 8 squares; 0 for those that go on, and empty if all do.
-    pub stopped: Vec<u32>,
+    /// The samples of the pixels of each square of 4×4 that has others, in rows of 8 squares: fewer
+    /// where they stopped, see [`Settings::noise`], more where they are ahead; 0 for all other squares,
+    /// and empty if there are none.
+    pub apart: Vec<u32>,
     /// The sums of each pixel's radiance or AOV, in rows.
     pub sums: Vec<Rgb>,
     /// The sums after the last power of two of samples, which the next doubling is compared with;
-    /// empty if that is now, and before the first sample.
+    /// empty if that is now, before the first sample, and where they are not recorded.
     pub half: Vec<Rgb>,
     /// The square of each pixel's estimated error, see [`Progress::noise`](crate::Progress::noise);
     /// 0 before samples were first doubled, and for AOVs of surfaces.
     pub squared_errors: Vec<f32>,
+    /// The variance of each pixel's mean; negative where there is no estimate, and where the errors are
+    /// known only as a mean over several pixels.
+    pub variances: Vec<f32>,
+    /// The index of the object under each pixel's centre, or [`NO_OBJECT`].
+    pub objects: Vec<u32>,
+    /// What each pixel depends on, see [`Cause`]; empty where it is not recorded.
+    pub causes: Vec<Cause>,
     /// The rays traced for it.
     pub counts: Counts,
 }
@@ -44,12 +53,33 @@ impl Block {
         Self {
             number,
             samples: 0,
-            stopped: Vec::new(),
+            apart: Vec::new(),
             sums: vec![Rgb::ZERO; area],
             half: Vec::new(),
             squared_errors: vec![0.0; area],
+            variances: vec![UNKNOWN; area],
+            objects: vec![NO_OBJECT; area],
+            causes: Vec::new(),
             counts: Counts::default(),
         }
+    }
+
+    /// The block if it can be continued to `spp` samples of each pixel, otherwise an empty one with its
+    /// counts: what the next doubling is compared with may not be recorded.
+    #[must_use]
+    pub fn continued_to(self, spp: u32, blocks: Blocks) -> Self {
+        let is_between = |samples: u32| 0 < samples && samples < spp && !samples.is_power_of_two();
+        let lacks_half = is_between(self.samples) && self.half.is_empty();
+        let is_ahead = |&&samples: &&u32| self.samples < samples;
+        let mut ahead = self.apart.iter().filter(is_ahead);
+        if lacks_half || ahead.any(|&samples| is_between(samples)) {
+            let counts = self.counts;
+            return Self {
+                counts,
+                ..Self::new(self.number, blocks)
+            };
+        }
+        self
     }
 
     /// Continues to `spp` samples of each pixel. Once the tracer is cancelled, ends after the last
@@ -70,7 +100,16 @@ impl Block {
         pixels.retain(|&pixel| taking.has(square(pixel)));
         let mut seen = Vec::with_capacity(pixels.len());
         let mut kept = Instant::now();
+        if self.samples < spp {
+            // They are not recorded here.
+            self.causes.clear();
+        }
         for index in self.samples..spp {
+            if self.rejoin(index) {
+                taking = self.taking();
+                pixels.clone_from(&all);
+                pixels.retain(|&pixel| taking.has(square(pixel)));
+            }
             if let Some(limit) = shot.settings.adaptive()
                 && LEAST_ADAPTIVE_SPP <= index
                 && index.is_power_of_two()
@@ -102,6 +141,9 @@ impl Block {
                     Some(Aov::Cost) => Rgb::splat(seen.rays.into()),
                     _ => seen.radiance,
                 };
+                if index == 0 {
+                    self.objects[at(pixel)] = seen.object;
+                }
             }
             self.samples = index + 1;
             let rays = work.tracer.counts().since(before);
@@ -116,22 +158,31 @@ impl Block {
         }
     }
 
-    /// The squares that take samples.
+    /// The squares that take the next sample.
     fn taking(&self) -> Squares {
-        let stopped = |square| {
-            self.stopped
-                .get(square)
-                .is_some_and(|&samples| samples != 0)
-        };
-        Squares::of(|square| !stopped(square))
+        Squares::of(|square| self.apart.get(square).is_none_or(|&samples| samples == 0))
+    }
+
+    /// Lets squares take part again that were ahead up to now; whether there are any. Those that stop at
+    /// these samples are decided on again, with the same outcome.
+    fn rejoin(&mut self, samples: u32) -> bool {
+        let mut is_any = false;
+        for apart in self.apart.iter_mut().filter(|apart| **apart == samples) {
+            is_any |= samples != 0;
+            *apart = 0;
+        }
+        if self.apart.iter().all(|&apart| apart == 0) {
+            self.apart.clear();
+        }
+        is_any
     }
 
     /// Notes how many samples the squares have that do not go on.
     fn stop(&mut self, taking: Squares, going_on: Squares) {
         let stops = |&square: &usize| taking.has(square) && !going_on.has(square);
         for square in (0..SQUARES).filter(stops) {
-            self.stopped.resize(SQUARES, 0);
-            self.stopped[square] = self.samples;
+            self.apart.resize(SQUARES, 0);
+            self.apart[square] = self.samples;
         }
     }
 
@@ -142,15 +193,16 @@ impl Block {
             for at in pixels {
                 let squared_error = doubling.squared_error(self.half[at], self.sums[at]);
                 self.squared_errors[at] = squared_error as f32;
+                self.variances[at] = doubling.variance(self.half[at], self.sums[at]) as f32;
             }
         }
         self.half.clear();
     }
 
     /// The samples of the pixels of a square.
-    fn samples_at(&self, square: usize) -> u32 {
-        let stopped = self.stopped.get(square).copied();
-        stopped
+    pub(crate) fn samples_at(&self, square: usize) -> u32 {
+        let apart = self.apart.get(square).copied();
+        apart
             .filter(|&samples| samples != 0)
             .unwrap_or(self.samples)
     }
@@ -159,6 +211,12 @@ impl Block {
     pub fn most_samples(&self) -> u32 {
         let most = (0..SQUARES).map(|square| self.samples_at(square)).max();
         most.unwrap_or(self.samples)
+    }
+
+    /// The sum of the numbers of samples of all its pixels.
+    pub fn total(&self, blocks: Blocks) -> u64 {
+        let taken = self.taken(blocks.region(self.number));
+        taken.map(u64::from).sum()
     }
 
     /// The samples of each of its pixels.

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, TryReserveError};
 use std::ops::Range;
+use std::time::Duration;
 
 use rayon::prelude::*;
 
@@ -204,11 +205,15 @@ impl Film {
         }
         let reached = self.tiles.par_iter().map(Tile::reached);
         self.reached = reached.max().unwrap_or(0);
-        self.over_budget = self.tiles.iter().map(|tile| tile.over_budget).sum();
-        if changed == Dependencies::NOTHING && 0 < self.reached {
-            kept.effort
-        } else {
-            Effort::default()
+        self.over_budget = self.tiles.iter().map(|tile| tile.counts.over_budget).sum();
+        let is_same = changed == Dependencies::NOTHING && 0 < self.reached;
+        if !is_same {
+            self.tiles.iter_mut().for_each(Tile::forget_rays);
+        }
+        let counts = self.tiles.iter().map(|tile| tile.counts);
+        Effort {
+            time: if is_same { kept.time } else { Duration::ZERO },
+            counts: counts.fold(Counts::default(), Counts::and),
         }
     }
 
@@ -238,18 +243,20 @@ impl Film {
 
     /// Whether a picture of the same size stores all that this one shows.
     pub(crate) fn can_take_over(&self, kept: &Kept) -> bool {
-        kept.remembers.suffices(self.remembers)
+        let tells_rays = self.aov != Some(Aov::Cost) || kept.tells_rays();
+        kept.remembers.suffices(self.remembers) && tells_rays
     }
 
-    /// The picture as far as it is traced, and what it took.
-    pub(crate) fn keep(mut self, effort: Effort) -> Kept {
+    /// The picture as far as it is traced, and the time that it took.
+    pub(crate) fn keep(mut self, time: Duration) -> Kept {
         self.tiles.par_iter_mut().for_each(Tile::revert);
         Kept {
             size: self.size,
             spp: self.spp,
+            is_adaptive: self.adaptive.is_some(),
             remembers: self.remembers,
             tiles: self.tiles,
-            effort,
+            time,
         }
     }
 
@@ -314,11 +321,9 @@ impl Film {
     }
 
     /// The tile of a pixel and its index there.
-    fn pixel(&self, [x, y]: [u32; 2]) -> (&Tile, usize) {
-        let TileShape { width, height } = self.shape;
-        let number = (y / height) as usize * self.shape.across(self.size) + (x / width) as usize;
-        let tile = &self.tiles[number];
-        (tile, tile.index([x, y]))
+    fn pixel(&self, pixel: [u32; 2]) -> (&Tile, usize) {
+        let tile = &self.tiles[self.shape.number(pixel, self.size)];
+        (tile, tile.index(pixel))
     }
 
     /// Takes one step, or one of its parts after the other, in those of some tiles that lack it, on the
@@ -362,7 +367,9 @@ impl Film {
                 |work, tile| {
                     let before = work.tracer.counts();
                     tile.advance(size, (step, part.clone(), selection), shot, work);
-                    work.tracer.counts().since(before)
+                    let traced = work.tracer.counts().since(before);
+                    tile.add_rays(traced);
+                    traced
                 },
             )
             .reduce(Counts::default, Counts::and);

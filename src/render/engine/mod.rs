@@ -21,8 +21,6 @@ pub use assembly::Assembly;
 pub use block::Block;
 pub use block_tracer::BlockTracer;
 pub use blocks::{BLOCK, Blocks};
-#[cfg(test)]
-pub(crate) use checkpoint::Effort;
 pub use checkpoint::Kept;
 #[cfg(test)]
 pub(crate) use difference::difference;
@@ -34,5 +32,6 @@ pub(crate) use noise::Doubling;
 pub(crate) use pass_schedule::{Step, steps};
 pub use preflight::{Refusal, check_memory, memory_for, memory_for_blocks, photons_kept};
 pub use renderer::{Renderer, Threads};
+pub use tile::Cause;
 #[cfg(test)]
 pub(crate) use tile::Remembers;

@@ -86,6 +86,17 @@ impl Step {
     }
 }
 
+/// The level of pixels with this many samples, if that is a step on the way to `spp`.
+pub(crate) fn level_of(samples: u32, spp: u32) -> Option<u8> {
+    match samples {
+        0 => Some(0),
+        _ if samples == spp || samples < spp && samples.is_power_of_two() => {
+            Some(Step::Samples(0..samples).level())
+        }
+        _ => None,
+    }
+}
+
 /// The number of samples at a level, at most `spp`; 0 at level 0.
 pub(crate) fn samples_at(level: u8, spp: u32) -> u32 {
     match level {

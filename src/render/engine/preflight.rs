@@ -13,8 +13,8 @@ use scene::{Rgb, Scene, Size};
 /// the vertices of triangles afterwards takes less than what is freed by then.
 const BOX: usize = 128;
 
-/// Bytes per pixel of a block: two sums and an error.
-const BLOCK_PIXEL: usize = 2 * size_of::<Rgb>() + size_of::<f32>();
+/// Bytes per pixel of a block: two sums, an error, a variance and an object.
+const BLOCK_PIXEL: usize = 2 * size_of::<Rgb>() + 2 * size_of::<f32>() + size_of::<u32>();
 
 /// Bytes per pixel while the picture is encoded.
 const ENCODED: usize = 4;

@@ -9,12 +9,14 @@ use std::ops::Range;
 use super::adaptive::Selection;
 use super::noise::Doubling;
 use super::pass_schedule::{COARSEST, Step, samples_at};
-use crate::integrators::{FrameContext, Sample, SampleResult, Tracer, first_hit};
+use crate::integrators::{Counts, FrameContext, Sample, SampleResult, Tracer, first_hit};
 use crate::job::{Aov, Frames, NO_OBJECT, Settings};
 use crate::picture::UNKNOWN;
 use crate::world::Dependencies;
 use partial_pass::Halfway;
 use scene::{Rgb, Size};
+pub use stored::Cause;
+pub(crate) use stored::Stored;
 
 /// Pixels per tile.
 pub(crate) const AREA: u32 = 256;
@@ -137,6 +139,11 @@ impl TileShape {
         ]
     }
 
+    /// The number of the tile of a pixel.
+    pub(crate) fn number(self, [x, y]: [u32; 2], size: Size) -> usize {
+        (y / self.height) as usize * self.across(size) + (x / self.width) as usize
+    }
+
     /// Tiles in each row of a picture.
     pub(crate) fn across(self, size: Size) -> usize {
         size.width.div_ceil(self.width) as usize
@@ -166,8 +173,8 @@ pub(crate) struct Tile {
     level: u8,
     /// The sum of its pixels' squared errors after the last pass that estimated them.
     pub(crate) squared_errors: f64,
-    /// Samples that exceeded their ray budget.
-    pub(crate) over_budget: u64,
+    /// The rays traced for it, and the samples that exceeded their ray budget.
+    pub(crate) counts: Counts,
     /// Data for tracing a subset of the pixels again.
     memory: Option<Box<Memory>>,
     /// What it was before a step of which parts are taken.
@@ -245,7 +252,7 @@ impl Tile {
             grid: NO_GRID,
             level: 0,
             squared_errors: 0.0,
-            over_budget: 0,
+            counts: Counts::default(),
             memory: (remembers == Remembers::Causes).then(memory),
             halfway: None,
         };
@@ -310,7 +317,7 @@ impl Tile {
                 return;
             }
         }
-        self.over_budget += work.tracer.counts().since(counts).over_budget;
+        self.counts.over_budget += work.tracer.counts().since(counts).over_budget;
         if !is_last {
             return;
         }
@@ -382,8 +389,8 @@ impl Tile {
             return false;
         }
         // The pixels that exceeded their budget are not known individually.
-        let is_whole = 0 < self.over_budget;
-        self.over_budget = 0;
+        let is_whole = 0 < self.counts.over_budget;
+        self.counts.over_budget = 0;
         for (at, is_stale) in stale.into_iter().enumerate() {
             if is_whole || is_stale {
                 self.forget_pixel(at);

@@ -232,11 +232,8 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
 
     /// The picture as far as it is traced.
     pub(crate) fn keep(self) -> Kept {
-        let effort = Effort {
-            time: self.elapsed(),
-            counts: self.counts,
-        };
-        self.film.keep(effort)
+        let time = self.elapsed();
+        self.film.keep(time)
     }
 
     fn elapsed(&self) -> Duration {

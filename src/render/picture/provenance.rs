@@ -35,6 +35,23 @@ impl Provenance {
         }
     }
 
+    /// That of the film behind it, which other pictures may show: without the number of samples, and
+    /// without what is made of the film afterwards.
+    #[must_use]
+    pub fn of_film(&self) -> Self {
+        Self {
+            layers: Vec::new(),
+            denoise: false,
+            settings: self.settings.of_film(),
+            ..self.clone()
+        }
+    }
+
+    /// Whether its pixels are those of [the film](Self::of_film), not what is known from tracing it.
+    pub fn is_of_film(&self) -> bool {
+        self.settings.aov == self.settings.of_film().aov
+    }
+
     /// With the samples that the frame has, which a limit or a larger number asked for may change.
     #[must_use]
     pub fn in_frame(mut self, frame: &Frame) -> Self {

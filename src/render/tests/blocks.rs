@@ -12,16 +12,25 @@ use scene::Filter;
 
 const SIZE: (u32, u32) = (75, 40);
 
-/// Blocks of 0 to this many samples, traced with this much at a time before they are stopped.
+/// All blocks of a job, continued from none.
 fn traced(job: &Job, spp: u32, polls: Option<u32>) -> Vec<Block> {
     let tracer = BlockTracer::new(job.clone(), 2, || false);
     let tracer = tracer.expect("it is traced").expect("it is not stopped");
     let blocks = tracer.blocks();
-    // The last blocks first.
-    let mut left: Vec<_> = (0..blocks.count())
-        .map(|number| Block::new(number, blocks))
-        .collect();
-    let mut done = Vec::new();
+    let none = (0..blocks.count()).map(|number| Block::new(number, blocks));
+    continued(&tracer, none.collect(), spp, polls)
+}
+
+/// Blocks continued to this many samples, traced with this much at a time before they are stopped, the
+/// last blocks first.
+pub(super) fn continued(
+    tracer: &BlockTracer,
+    left: Vec<Block>,
+    spp: u32,
+    polls: Option<u32>,
+) -> Vec<Block> {
+    let (mut done, mut left): (Vec<_>, Vec<_>) =
+        left.into_iter().partition(|block| spp <= block.samples);
     while !left.is_empty() {
         let polled = AtomicU32::new(0);
         let stopped = || polls.is_some_and(|most| most < polled.fetch_add(1, Ordering::Relaxed));
@@ -52,17 +61,23 @@ fn traced(job: &Job, spp: u32, polls: Option<u32>) -> Vec<Block> {
     done
 }
 
+/// The picture of blocks.
+pub(super) fn assembled(settings: &Settings, blocks: &[Block]) -> Frame {
+    let assembly = Assembly::new(*settings, Frames::LastWithValues);
+    let mut assembly = assembly.expect("it fits into memory");
+    for block in blocks {
+        assembly.place(block);
+    }
+    assembly.finish(settings.spp)
+}
+
 #[track_caller]
 pub(super) fn assert_same(scene: &Arc<Scene>, settings: Settings, polls: Option<u32>) {
     let job = Job {
         frames: Frames::LastWithValues,
         ..job(scene, settings)
     };
-    let mut assembly = Assembly::new(settings, job.frames).expect("it fits into memory");
-    for block in traced(&job, settings.spp, polls) {
-        assembly.place(&block);
-    }
-    let ours = assembly.finish(settings.spp);
+    let ours = assembled(&settings, &traced(&job, settings.spp, polls));
     let (mut renderer, woken) = renderer(2);
     let generation = restart(&mut renderer, job);
     let theirs = finish(&renderer, &woken, generation);

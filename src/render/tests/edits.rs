@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use super::meshes::{mesh, square};
 use super::*;
-use crate::engine::{Effort, Film, difference, steps};
+use crate::engine::{Film, difference, steps};
 use crate::integrators::{Counts, FrameContext};
 use crate::{Aov, Progress};
 use geometry::{Csg, Instance, Node, Operation};
@@ -46,7 +46,7 @@ impl Easel {
         let world = world.expect("nothing cancels");
         let changed = difference((&self.job, &self.world), (&job, &world));
         let film = Film::new(&job.settings, job.frames, job.denoise).expect("memory is there");
-        let old = std::mem::replace(&mut self.film, film).keep(Effort::default());
+        let old = std::mem::replace(&mut self.film, film).keep(Duration::ZERO);
         if Arc::ptr_eq(&self.world.emitters, &world.emitters) || !self.is_by_path() {
             self.film
                 .take_over(old, changed.expect("materials and colours of lights"));
@@ -67,6 +67,9 @@ impl Easel {
         let cancelled = || patience <= asked.fetch_add(1, Ordering::Relaxed);
         let shot = FrameContext::new(&self.world, &self.job.camera, self.job.settings);
         for step in steps(self.job.settings.spp, self.job.frames) {
+            if self.film.select(&step) == 0.0 {
+                break;
+            }
             let tiles = 0..self.film.tiles();
             let counts = self
                 .film

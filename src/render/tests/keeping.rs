@@ -1,30 +1,34 @@
-//! Pictures kept beyond their renderer, as bytes.
+//! Pictures kept beyond their renderer, in blocks.
 
 use std::io::ErrorKind;
 use std::sync::mpsc::Receiver;
+use std::time::Duration;
 
+use super::blocks::{assembled, continued};
 use super::edits::Easel;
+use super::noise::wall;
 use super::progress::{still, trace};
 use super::*;
-use crate::engine::{Effort, Kept};
-use crate::{Aov, Region};
+use crate::engine::Kept;
+use crate::{Aov, Block, BlockTracer, Cause, Counts, Region};
 
-fn bytes_of(kept: &Kept) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    kept.write(&mut bytes).expect("memory is there");
-    bytes
+fn blocks_of(kept: &Kept) -> Vec<Block> {
+    kept.blocks().collect()
 }
 
-fn read(mut bytes: &[u8], job: &Job) -> std::io::Result<Kept> {
-    let kept = Kept::read(&mut bytes, job)?;
-    assert!(bytes.is_empty(), "{} bytes are left", bytes.len());
-    Ok(kept)
+fn read(blocks: &[Block], job: &Job) -> std::io::Result<Kept> {
+    let blocks = blocks.iter().cloned().map(Ok);
+    Kept::of(blocks, Duration::from_secs(1), job)
 }
 
-/// As bytes and back.
+/// In blocks and back.
 fn recalled(kept: &Kept, job: &Job) -> Receiver<Kept> {
+    from_blocks(&blocks_of(kept), job)
+}
+
+fn from_blocks(blocks: &[Block], job: &Job) -> Receiver<Kept> {
     let (send, recalled) = mpsc::channel();
-    let kept = read(&bytes_of(kept), job).expect("it is as it was written");
+    let kept = read(blocks, job).expect("they are of the picture");
     send.send(kept).expect("it is there");
     recalled
 }
@@ -70,15 +74,15 @@ fn a_picture_cancelled_in_a_pass_continues_to_the_same_picture() {
                 break;
             }
             cancelled += 1;
-            let kept = easel.film.keep(Effort::default());
-            let bytes = bytes_of(&kept);
-            let kept = read(&bytes, &job).expect("it is as it was written");
-            assert!(bytes_of(&kept) == bytes);
+            let kept = easel.film.keep(Duration::ZERO);
             with_leftovers += kept
                 .tiles
                 .iter()
                 .filter(|tile| tile.has_leftovers())
                 .count();
+            let blocks = blocks_of(&kept);
+            let kept = read(&blocks, &job).expect("they are of the picture");
+            assert!(blocks_of(&kept) == blocks);
             let mut easel = Easel::new(job.clone());
             easel.film.take_over(kept, Dependencies::NOTHING);
             easel.trace(u64::MAX);
@@ -130,8 +134,10 @@ fn another_renderer_continues_a_picture_that_was_running_or_paused() {
         let left = first.keep().expect("it is begun");
         // All of it only if this thread had to wait long.
         assert!(0 < left.samples() && left.samples() <= 160 * 120 * 16);
-        assert!(rays <= left.effort.counts.rays);
-        rays = left.effort.counts.rays;
+        let counts = left.tiles.iter().map(|tile| tile.counts.rays);
+        let all_rays = counts.sum();
+        assert!(rays <= all_rays);
+        rays = all_rays;
         kept = Some(left);
     }
     let kept = kept.expect("it was kept twice");
@@ -190,7 +196,7 @@ fn a_recalled_picture_is_retraced_where_an_edit_shows() {
         .restart_from(first.clone(), recalled)
         .expect("the worker runs");
     let generation = restart(&mut renderer, job(&other, first.settings));
-    let kept = read(&bytes_of(&kept), &first).expect("it is as it was written");
+    let kept = read(&blocks_of(&kept), &first).expect("they are of the picture");
     send.send(kept).expect("the worker waits");
     let frame = finish(&renderer, &woken, generation);
     let alone = trace(&other, first.settings, 2);
@@ -219,52 +225,182 @@ fn pictures_that_cannot_be_continued_are_not_kept() {
     assert!(renderer.keep().is_none(), "nothing was traced");
 }
 
-/// The bytes of the complete picture of a job.
-fn small(job: &Job) -> Vec<u8> {
-    let mut easel = Easel::new(job.clone());
-    easel.trace(u64::MAX);
-    bytes_of(&easel.film.keep(Effort::default()))
+/// Jobs whose blocks are continued by a renderer and by a tracer of blocks: besides several shapes, by
+/// photons, adaptively, and to samples that are no power of two.
+fn exchanged() -> Vec<Job> {
+    let scene = still();
+    let by_photons = Settings {
+        integrator: Integrator::Photon,
+        falloff: FalloffRule::Square,
+        ..settings(40, 35, 24)
+    };
+    let adaptive = Settings {
+        noise: 0.055,
+        ..settings(70, 41, 256)
+    };
+    let surface = Settings {
+        aov: Some(Aov::Depth),
+        ..settings(40, 35, 16)
+    };
+    let mut jobs = jobs(11);
+    jobs.extend([by_photons, surface].map(|settings| job(&scene, settings)));
+    jobs.push(job(&wall(), adaptive));
+    jobs
+}
+
+/// What is left of a picture after the frames that come first.
+fn left_after(job: &Job, frames: u32) -> Kept {
+    let (mut renderer, woken) = renderer(2);
+    restart(&mut renderer, job.clone());
+    for _ in 0..frames {
+        woken.recv().expect("the worker runs");
+        if renderer
+            .latest()
+            .is_some_and(|frame| frame.progress.complete)
+        {
+            break;
+        }
+    }
+    renderer.keep().expect("it is begun")
 }
 
 #[test]
-fn bytes_of_no_such_picture_are_refused() {
-    let live = job(&still(), settings(20, 17, 4));
-    let bytes = small(&live);
-    for length in (0..bytes.len()).step_by(97).chain([44, bytes.len() - 1]) {
-        let error = read(&bytes[..length], &live).expect_err("bytes are missing");
-        assert_eq!(error.kind(), ErrorKind::UnexpectedEof, "{length}");
+fn a_tracer_of_blocks_continues_what_a_renderer_left() {
+    let mut begun = 0;
+    for job in exchanged() {
+        let Settings {
+            spp, integrator, ..
+        } = job.settings;
+        // Photons take most of them.
+        let polls = if integrator == Integrator::Photon {
+            50_000
+        } else {
+            60
+        };
+        let last = Job {
+            frames: Frames::LastWithValues,
+            ..job.clone()
+        };
+        let (mut whole, woken) = renderer(2);
+        let generation = restart(&mut whole, last.clone());
+        let alone = finish(&whole, &woken, generation);
+        let tracer = BlockTracer::new(last, 2, || false);
+        let tracer = tracer.expect("it is traced").expect("it is not stopped");
+        let blocks = tracer.blocks();
+        let mut easel = Easel::new(job.clone());
+        easel.trace(300);
+        let by_easel = easel.film.keep(Duration::ZERO);
+        let mut left = vec![
+            left_after(&job, 1),
+            left_after(&job, 3),
+            left_after(&job, u32::MAX),
+        ];
+        // It takes no photons.
+        left.extend((integrator != Integrator::Photon).then_some(by_easel));
+        for kept in left {
+            let mut all: Vec<_> = (0..blocks.count())
+                .map(|number| Block::new(number, blocks))
+                .collect();
+            for block in kept.blocks() {
+                begun += u32::from(block.samples < spp && 0 < block.most_samples());
+                let number = block.number as usize;
+                all[number] = block.continued_to(spp, blocks);
+            }
+            let done = continued(&tracer, all, spp, Some(polls));
+            let frame = assembled(&job.settings, &done);
+            assert!(frame.pixels == alone.pixels, "{:?}", job.settings);
+            assert!(frame.values == alone.values, "{:?}", job.settings);
+        }
     }
-    let with = |at: usize, new: &[u8]| {
-        let mut bytes = bytes.clone();
-        bytes[at..at + new.len()].copy_from_slice(new);
-        bytes
+    assert!(10 < begun, "{begun}");
+}
+
+#[test]
+fn a_renderer_continues_what_a_tracer_of_blocks_left() {
+    for job in exchanged() {
+        let alone = trace(&job.scene, job.settings, 2);
+        let tracer = BlockTracer::new(job.clone(), 2, || false);
+        let tracer = tracer.expect("it is traced").expect("it is not stopped");
+        let blocks = tracer.blocks();
+        let none = || (0..blocks.count()).map(|number| Block::new(number, blocks));
+        for samples in [1, 6, 8, job.settings.spp] {
+            let some = none().filter(|block| block.number != 1).collect();
+            let mut left = continued(&tracer, some, samples, None);
+            // The first has all its samples.
+            let whole = none().take(1).collect();
+            let whole = continued(&tracer, whole, job.settings.spp, None);
+            left.retain(|block| block.number != 0);
+            left.extend(whole);
+            let (mut renderer, woken) = renderer(2);
+            let generation = renderer.restart_from(job.clone(), from_blocks(&left, &job));
+            let frame = finish(&renderer, &woken, generation.expect("the worker runs"));
+            assert_same(&frame, &alone);
+        }
+    }
+}
+
+/// The rays of blocks are not known pixel by pixel, but the picture of light is.
+#[test]
+fn the_cost_of_pixels_is_traced_where_it_is_not_known() {
+    let light = job(&still(), settings(40, 30, 4));
+    let cost = Settings {
+        aov: Some(Aov::Cost),
+        ..light.settings
     };
-    let tile = bytes.len() / 4;
-    let (objects, levels) = (45 + 24 * 256, 45 + 28 * 256);
-    let hostile = [
-        with(0, &[0; 4]),
-        with(0, &65_537u32.to_le_bytes()),
-        with(4, &[0]),
-        with(4, &[2]),
-        with(5, &5u32.to_le_bytes()),
-        with(5, &u32::MAX.to_le_bytes()),
-        with(17, &1_000_000_000u32.to_le_bytes()),
-        with(objects, &4u32.to_le_bytes()),
-        with(levels, &[4]),
-        with(levels, &[255]),
-        // Beyond the edge of the second tile.
-        with(levels + tile + 15, &[0]),
+    let tracer = BlockTracer::new(light.clone(), 2, || false);
+    let tracer = tracer.expect("it is traced").expect("it is not stopped");
+    let blocks = tracer.blocks();
+    let all = (0..blocks.count()).map(|number| Block::new(number, blocks));
+    let left = continued(&tracer, all.collect(), 4, None);
+    let alone = trace(&light.scene, cost, 2);
+    let kept = read(&left, &job(&light.scene, cost)).expect("they are of the picture");
+    assert_eq!(kept.samples(), 0);
+    let (mut renderer, woken) = renderer(2);
+    let generation = renderer.restart_from(light.clone(), from_blocks(&left, &light));
+    finish(&renderer, &woken, generation.expect("the worker runs"));
+    let generation = restart(&mut renderer, job(&light.scene, cost));
+    assert_same(&finish(&renderer, &woken, generation), &alone);
+}
+
+/// The blocks of the complete picture of a job.
+fn small(job: &Job) -> Vec<Block> {
+    let mut easel = Easel::new(job.clone());
+    easel.trace(u64::MAX);
+    blocks_of(&easel.film.keep(Duration::ZERO))
+}
+
+/// A way to spoil a block.
+type Spoil = fn(&mut Block);
+
+#[test]
+fn blocks_of_no_such_picture_are_refused() {
+    let live = job(&still(), settings(20, 17, 4));
+    let refused: [Spoil; 2] = [|block| block.number = 1, |block| block.objects[0] = 4];
+    for spoil in refused {
+        let mut blocks = small(&live);
+        spoil(&mut blocks[0]);
+        let error = read(&blocks, &live).expect_err("it is no such picture");
+        assert_eq!(error.kind(), ErrorKind::InvalidData);
+    }
+    // What is no step on the way to the samples of the job is left out.
+    let left_out: [Spoil; 3] = [
+        |block| block.samples = 3,
+        |block| block.samples = 8,
+        |block| block.samples = u32::MAX,
     ];
-    for (number, bytes) in hostile.iter().enumerate() {
-        let error = Kept::read(&mut &bytes[..], &live).expect_err("it is no such picture");
-        assert_eq!(error.kind(), ErrorKind::InvalidData, "{number}");
+    for spoil in left_out {
+        let mut blocks = small(&live);
+        spoil(&mut blocks[0]);
+        assert_eq!(read(&blocks, &live).expect("it is one").samples(), 0);
     }
     // More is stored than a job that shows no causes needs, but not less.
     let last = Job {
         frames: Frames::Last,
         ..live.clone()
     };
-    assert!(read(&bytes, &last).is_ok());
+    let all = 20 * 17 * 4;
+    let samples = |blocks: &[Block], job: &Job| read(blocks, job).expect("it is one").samples();
+    assert_eq!(samples(&small(&live), &last), all);
     let cost = Job {
         settings: Settings {
             aov: Some(Aov::Cost),
@@ -273,25 +409,51 @@ fn bytes_of_no_such_picture_are_refused() {
         ..last.clone()
     };
     let less = small(&last);
-    assert!(read(&less, &last).is_ok());
+    assert_eq!(samples(&less, &last), all);
     for job in [live, cost] {
-        let error = Kept::read(&mut &less[..], &job).expect_err("it stores too little");
-        assert_eq!(error.kind(), ErrorKind::InvalidData);
+        assert_eq!(samples(&less, &job), 0);
     }
 }
 
 /// Whatever they are, a picture is traced to the end.
 #[test]
-fn no_bytes_make_tracing_fail() {
-    let job = job(&still(), settings(3, 2, 3));
-    let bytes = small(&job);
-    for at in 0..bytes.len() {
-        let mut bytes = bytes.clone();
-        bytes[at] ^= 0xFF;
-        let Ok(kept) = Kept::read(&mut &bytes[..], &job) else {
-            continue;
-        };
-        if at % 61 == 0 || at < 45 {
+fn no_blocks_make_tracing_fail() {
+    let adaptive = Settings {
+        noise: 0.1,
+        ..settings(37, 21, 32)
+    };
+    for job in [
+        job(&still(), settings(3, 2, 3)),
+        job(&still(), settings(37, 21, 6)),
+        job(&still(), adaptive),
+    ] {
+        let good = small(&job);
+        let spoils: [Spoil; 9] = [
+            |block| block.samples = 0,
+            |block| block.samples = 1,
+            |block| block.apart = (0..64).collect(),
+            |block| block.apart = vec![u32::MAX; 64],
+            |block| block.sums.fill(Rgb::splat(f64::NAN)),
+            |block| block.squared_errors.fill(f32::NAN),
+            |block| block.variances.fill(f32::NEG_INFINITY),
+            |block| {
+                block.causes.fill(Cause {
+                    touched: 0,
+                    rays: u32::MAX,
+                });
+            },
+            |block| {
+                block.counts = Counts {
+                    rays: 1,
+                    shadow_rays: 2,
+                    over_budget: 3,
+                };
+            },
+        ];
+        for spoil in spoils {
+            let mut blocks = good.clone();
+            spoil(&mut blocks[0]);
+            let kept = read(&blocks, &job).expect("it is one");
             let mut easel = Easel::new(job.clone());
             easel.film.take_over(kept, Dependencies::NOTHING);
             easel.trace(u64::MAX);

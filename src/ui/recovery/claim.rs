@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::identity::Identity;
-use crate::state_folder::Folder;
+use file::state_folder::Folder;
 use file::{Lock, lock};
 
 /// The maximum number of damaged journals with one name.
@@ -177,14 +177,14 @@ fn write(mut file: &File, content: &[u8]) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::state_folder::Part;
+    use file::state_folder::Store;
     use language::Language;
 
     #[test]
     #[cfg(unix)]
     fn a_claim_ends_despite_copies_of_its_file() {
         let state = tempfile::tempdir().expect("a folder");
-        let folder = Arc::new(Folder::make(state.path(), Part::Edits).expect("a folder"));
+        let folder = Arc::new(Folder::make(state.path(), Store::Edits).expect("a folder"));
         let scene = Identity::of(None, Language::Ray);
         let claim = Claim::new(&folder, &scene).expect("the name is free");
         let name = claim.name().to_owned();

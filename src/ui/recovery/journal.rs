@@ -7,8 +7,8 @@ use std::sync::Arc;
 use super::claim::Claim;
 use super::identity::Identity;
 use super::record;
-use crate::state_folder::{Folder, Part};
 use document::Snapshot;
+use file::state_folder::{Folder, Store};
 use language::Language;
 use text::Edit;
 
@@ -106,7 +106,7 @@ impl Journal {
 
 impl OpenJournal {
     fn new(state: &Path, change: &Change) -> io::Result<Self> {
-        let folder = Arc::new(Folder::make(state, Part::Edits)?);
+        let folder = Arc::new(Folder::make(state, Store::Edits)?);
         let identity = Identity::of(change.scene.as_deref(), change.language);
         let (content, head) = beginning(&identity, change);
         let claim = Claim::new(&folder, &identity)?;

@@ -9,7 +9,7 @@ use std::time::Instant;
 use super::claim::Claim;
 use super::journal::{Edits, Journal};
 use crate::queue::{Ended, Service};
-use crate::state_folder;
+use file::state_folder;
 
 /// A request for the thread.
 #[derive(Debug)]

@@ -7,7 +7,7 @@ use super::claim::Claim;
 use super::identity::Identity;
 use super::offer::{left_behind, limit, read};
 use super::record::{self, Content};
-use crate::state_folder::{self, Folder, Part};
+use file::state_folder::{self, Folder, Store};
 use language::Language;
 
 /// The base of the newest edits kept of a scene, or of the one without a file: what is left of it if
@@ -57,7 +57,7 @@ fn newest_place(state: &Path, path: &Path) -> Option<PathBuf> {
 
 /// Claims the non-empty journals of a scene whose runs have ended, oldest first.
 fn claims(state: &Path, scene: &Identity) -> Vec<Claim> {
-    let Ok(Some(folder)) = Folder::find(state, Part::Edits) else {
+    let Ok(Some(folder)) = Folder::find(state, Store::Edits) else {
         return Vec::new();
     };
     let mut claims = left_behind(&Arc::new(folder), scene.names(), drop);

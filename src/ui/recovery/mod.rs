@@ -1,7 +1,7 @@
 //! Unsaved edits kept from one run to the next, readable by their owner only.
 //!
 //! Every run keeps its edits in its own journal, `recovery/STEM-HASH-N.EXTENSION` below the
-//! [state folder](super::state_folder), locked while the run lasts: undecided edits stay, and those of running
+//! [state folder](file::state_folder), locked while the run lasts: undecided edits stay, and those of running
 //! processes are not offered. The hash is of the scene's canonical path, so that a scene has the
 //! same journals under all its names.
 //!

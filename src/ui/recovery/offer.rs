@@ -9,8 +9,8 @@ use super::claim::Claim;
 use super::identity::Identity;
 use super::record::{self, Content};
 use crate::queue::spawn;
-use crate::state_folder::{self, Folder, Part};
 use document::{Merge, Side, differences};
+use file::state_folder::{self, Folder, Store};
 use language::Language;
 use memory::megabytes;
 use text::{Edit, smallest_edit};
@@ -95,7 +95,7 @@ pub(crate) fn look_for(sought: Sought, report: impl Fn(Found) + Send + 'static) 
 /// Finds the newest edits kept below a state folder.
 pub(super) fn look_in(state: &Path, sought: &Sought) -> Found {
     let mut found = Found::default();
-    let folder = match Folder::find(state, Part::Edits) {
+    let folder = match Folder::find(state, Store::Edits) {
         Ok(Some(folder)) => Arc::new(folder),
         Ok(None) => return found,
         Err(error) => {

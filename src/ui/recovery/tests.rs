@@ -16,14 +16,14 @@ use super::identity::Identity;
 use super::journal::{Edits, Journal};
 use super::offer::look_in;
 use super::{Found, Offer, Sought, Way, missing, note_for_missing, record};
-use crate::state_folder::{Folder, Part};
 use document::{Document, Snapshot};
+use file::state_folder::{Folder, Store};
 use language::Language;
 
 /// An offer of edits for a text, whose journal is gone.
 pub(crate) fn offer(language: Language, text: &Arc<String>, base: &str, kept: &str) -> Offer {
     let place = Place::new();
-    let folder = Arc::new(Folder::make(&place.state, Part::Edits).expect("a folder"));
+    let folder = Arc::new(Folder::make(&place.state, Store::Edits).expect("a folder"));
     let claim = Claim::new(&folder, &Identity::of(None, language)).expect("it is empty");
     let sought = Sought {
         scene: None,
@@ -77,7 +77,7 @@ impl Place {
     }
 
     fn make(&self) {
-        Folder::make(&self.state, Part::Edits).expect("a folder");
+        Folder::make(&self.state, Store::Edits).expect("a folder");
     }
 
     fn scene(&self) -> PathBuf {

@@ -8,7 +8,7 @@ use std::{fs, io};
 use crate::arrange::PanelSizes;
 use crate::msg::Msg;
 use crate::queue::Service;
-use crate::state_folder::{self, Folder, Part};
+use file::state_folder::{self, Folder, Store};
 
 /// Names of the files.
 const SCENES: &str = "recent";
@@ -116,7 +116,7 @@ fn note_in(state: &Path, scene: &Path) -> io::Result<()> {
 }
 
 fn write(state: &Path, name: &str, text: &str) -> io::Result<()> {
-    let folder = Folder::make(state, Part::Sessions)?;
+    let folder = Folder::make(state, Store::Sessions)?;
     folder.replace(name, |out| out.write_all(text.as_bytes()))
 }
 
@@ -132,7 +132,7 @@ fn read(state: &Path) -> Vec<PathBuf> {
 /// The text of a file; empty if it cannot be read.
 fn text_of(state: &Path, name: &str) -> String {
     let read = || {
-        let folder = Folder::find(state, Part::Sessions).ok()??;
+        let folder = Folder::find(state, Store::Sessions).ok()??;
         let file = folder.open(name).ok()??;
         let bytes = file::read_opened(&file, &folder.place(name), LONGEST).ok()?;
         String::from_utf8(bytes).ok()

@@ -2,15 +2,16 @@
 //! at the end.
 
 use std::io;
+use std::path::PathBuf;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::sync::{Arc, Weak};
 
 use std::time::{Duration, Instant};
 
-use super::traces::Traces;
 use crate::msg::{Origin, Recalled};
 use crate::queue::spawn;
 use assets::FileDigests;
+use part::{Furthest, Shard, Traces};
 use render::{Job, Kept, Provenance, Renderer};
 use scene::Scene;
 
@@ -55,10 +56,7 @@ impl Traced {
     pub(super) fn of(job: &Job) -> Self {
         Self {
             scene: Arc::downgrade(&job.scene),
-            picture: Provenance {
-                settings: job.settings.of_film(),
-                ..Provenance::of(job, String::new())
-            },
+            picture: Provenance::of(job, String::new()).of_film(),
             goal: job.limit.is_none().then_some(job.settings.spp),
             digests: None,
         }
@@ -70,13 +68,14 @@ impl Traced {
         self.digests.is_some()
     }
 
-    /// Looks on another thread for what an earlier run left of a job among some traces. `report` is
-    /// called if that is something; the receiver brings it to the renderer.
+    /// Looks on another thread for what an earlier run left of a job among some traces, or a render in
+    /// the part beside a picture. `report` is called if that is something; the receiver brings it to the
+    /// renderer.
     pub(super) fn recall(
         job: &Job,
         origin: Origin,
-        traces: Option<Traces>,
-        report: impl FnOnce(Recalled) + Send + 'static,
+        (traces, beside): (Option<Traces>, PathBuf),
+        report: impl Fn(Recalled) + Send + 'static,
     ) -> io::Result<(Self, Receiver<Kept>)> {
         let traced = Self::of(job);
         let (send, recalled) = mpsc::channel();
@@ -93,22 +92,27 @@ impl Traced {
             let scene = picture.scene.clone();
             // Fails only after the trace.
             let _ = tell.send(Digests { files, scene });
-            let Some(traces) = traces else {
-                return;
-            };
-            match traces.read(&picture, &job) {
-                Ok(None) => {}
-                Ok(Some(kept)) if job.settings.spp < kept.spp() => {
-                    let goal = kept.goal().min(kept.spp().next_power_of_two());
-                    report(Recalled::More(goal));
-                }
-                Ok(Some(kept)) => {
-                    let spp = kept.spp();
-                    if send.send(kept).is_ok() {
-                        report(Recalled::Continued(spp));
+            let trace = traces.map_or(Ok(None), |traces| traces.find(&picture));
+            let trace = trace.unwrap_or_else(|error| {
+                report(Recalled::Unreadable(error.to_string()));
+                None
+            });
+            let part = part::find_part(&part::path_beside(&beside, Shard::WHOLE), &picture);
+            let found: Vec<_> = trace.into_iter().chain(part).collect();
+            let furthest = Furthest(&found);
+            let (spp, goal) = (furthest.spp(), furthest.goal());
+            if job.settings.spp < spp {
+                report(Recalled::More(goal.spp.min(spp.next_power_of_two())));
+            } else if !found.is_empty() {
+                match Kept::of(furthest.blocks(), goal.time, &job) {
+                    Ok(kept) => {
+                        let spp = kept.spp();
+                        if send.send(kept).is_ok() {
+                            report(Recalled::Continued(spp));
+                        }
                     }
+                    Err(error) => report(Recalled::Unreadable(error.to_string())),
                 }
-                Err(error) => report(Recalled::Unreadable(error.to_string())),
             }
         };
         spawn("recall", look)?;
@@ -209,4 +213,4 @@ impl Keeping {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -18,7 +18,6 @@ use super::continuing::{Keeping, TraceEnd, Traced};
 use super::editor;
 use super::ending::ShutdownDeadlines;
 use super::screen::Screen;
-use super::traces::Traces;
 use super::tty_session::TtySession;
 use crate::event::{Event, Work, sending};
 use crate::history_scene::{HistoryText, NoPicture};
@@ -36,6 +35,7 @@ use crate::service::writing::Writers;
 use crate::service::{self, Answering};
 use assets::Wanted;
 use others::{reaches_others, without_others};
+use part::Traces;
 use render::{Frame, Job, Kept, Refusal, Renderer, Threads};
 use scene::Scene;
 
@@ -213,7 +213,9 @@ impl Runtime {
                 }
                 return Ok(Some(self.trace(target, job, None)));
             }
-            Effect::Recall(job, origin) => return Ok(Some(self.trace_on(job, origin))),
+            Effect::Recall(job, origin, beside) => {
+                return Ok(Some(self.trace_on(job, origin, beside)));
+            }
             Effect::Stop(target) => self.stop(target),
             Effect::Explain(question, frame) => {
                 self.explanations.ask((question, frame), self.work())?;
@@ -309,13 +311,13 @@ impl Runtime {
         Work::begin(&self.sender)
     }
 
-    /// Starts the full-size trace from what an earlier run left of it.
-    fn trace_on(&mut self, job: Job, origin: Origin) -> Msg {
+    /// Starts the full-size trace from what an earlier run left of it, or a render of this picture.
+    fn trace_on(&mut self, job: Job, origin: Origin, beside: PathBuf) -> Msg {
         let send = sending(&self.sender);
         let report = move |recalled| send(Msg::Recalled(recalled));
-        let traces = Traces::of_user().ok();
+        let kept = (Traces::of_user().ok(), beside);
         let is_terminal = self.screen.is_terminal();
-        let recall = is_terminal.then(|| Traced::recall(&job, origin, traces, report));
+        let recall = is_terminal.then(|| Traced::recall(&job, origin, kept, report));
         let (traced, recalled) = match recall {
             Some(Ok((traced, recalled))) => (traced, Some(recalled)),
             // Without a thread it is traced anew.

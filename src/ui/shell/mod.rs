@@ -10,8 +10,7 @@ mod screen;
 pub(crate) mod script;
 pub(crate) mod session;
 pub(crate) mod snapshot;
-mod traces;
 mod tty_session;
 
 #[cfg(test)]
-pub(super) use traces::tests::job;
+pub(super) use continuing::tests::job;

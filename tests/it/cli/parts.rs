@@ -358,7 +358,7 @@ fn a_part_that_stopped_early_is_continued_with_fewer_samples_than_were_allowed()
 fn declared(size: &str) -> String {
     let digest = "0".repeat(64);
     let header = format!(
-        "halflight part 1\nversion 0.1.0\nscene {digest}\nview own\nlayers none\nsize {size}\n\
+        "halflight part 2\nversion 0.1.0\nscene {digest}\nview own\nlayers none\nsize {size}\n\
          region none\ndepth 8\nseed 0\naov none\nintegrator whitted\nfilter box\n\
          transfer linear\nexposure 0\nfalloff none\ngloss none\nshard 0/1\n"
     );

@@ -28,7 +28,7 @@ impl Tile {
             sums: self.sums,
             levels: self.levels,
             rays: memory.map_or(Vec::new(), |memory| memory.rays.to_vec()),
-            over_budget: self.over_budget,
+            over_budget: self.counts.over_budget,
         })
     }
 
@@ -39,7 +39,7 @@ impl Tile {
         };
         self.sums = halfway.sums;
         self.levels = halfway.levels;
-        self.over_budget = halfway.over_budget;
+        self.counts.over_budget = halfway.over_budget;
         if let Some(memory) = &mut self.memory {
             memory.rays.copy_from_slice(&halfway.rays);
         }

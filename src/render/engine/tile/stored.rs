@@ -1,93 +1,125 @@
-//! Tiles as bytes, with integers and floats in little-endian order: sums as 3 f64 a pixel, indices of
-//! objects as u32, levels as u8, the level of the tile as u8, the sum of squared errors as f64, samples
-//! over budget as u64, and with [`super::Memory`] the touched sets as u64, squared errors and variances
-//! as f32 and rays as u32.
-//!
-//! The grid is not stored: a tile that lacks a sample of a pixel takes the grids again.
+//! Pixels of tiles as blocks store them.
 
-use super::{AREA, BEYOND, NO_GRID, Remembers, Tile};
-use crate::engine::pass_schedule::Step;
+use super::{BEYOND, Tile};
+use crate::integrators::Counts;
 use crate::job::NO_OBJECT;
+use crate::picture::UNKNOWN;
 use crate::world::Dependencies;
 use scene::Rgb;
 
-/// Bytes of a pixel and of what is remembered of it.
-const PIXEL: usize = 3 * 8 + 4 + 1;
-const MEMORY: usize = 8 + 4 + 4 + 4;
+/// What is recorded of a pixel so that edits retrace only some.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cause {
+    /// The objects and lights that its samples touched, as bits that each stand for several.
+    pub touched: u64,
+    /// The rays traced for its samples; [`u32::MAX`] if that is not known.
+    pub rays: u32,
+}
+
+impl Cause {
+    /// That of a pixel of which nothing is recorded: it depends on everything.
+    pub(crate) const UNKNOWN: Self = Self {
+        touched: u64::MAX,
+        rays: u32::MAX,
+    };
+}
+
+/// What a tile knows of a pixel.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stored {
+    pub(crate) sum: Rgb,
+    pub(crate) object: u32,
+    pub(crate) level: u8,
+    /// The mean of its tile where single ones are not recorded.
+    pub(crate) squared_error: f32,
+    /// [`UNKNOWN`] where it is not recorded.
+    pub(crate) variance: f32,
+    pub(crate) cause: Option<Cause>,
+}
+
+impl Stored {
+    /// A pixel of which nothing is traced.
+    pub(crate) const NOTHING: Self = Self {
+        sum: Rgb::ZERO,
+        object: NO_OBJECT,
+        level: 0,
+        squared_error: 0.0,
+        variance: UNKNOWN,
+        cause: None,
+    };
+}
 
 impl Tile {
-    /// The number of bytes of a stored tile.
-    pub(crate) fn stored_bytes(remembers: Remembers) -> usize {
-        let memory = match remembers {
-            Remembers::Pixels => 0,
-            Remembers::Causes => MEMORY,
+    /// What is known of a pixel, by its index.
+    pub(crate) fn stored(&self, at: usize) -> Stored {
+        let memory = self.memory.as_ref();
+        let mean = || {
+            let pixels = self.levels.iter().filter(|&&level| level != BEYOND);
+            (self.squared_errors / pixels.count() as f64) as f32
         };
-        AREA as usize * (PIXEL + memory) + 1 + 8 + 8
-    }
-
-    /// Appends its bytes.
-    pub(crate) fn store(&self, bytes: &mut Vec<u8>) {
-        for sum in &self.sums {
-            bytes.extend(sum.to_array().map(f64::to_le_bytes).as_flattened());
-        }
-        bytes.extend(self.objects.map(u32::to_le_bytes).as_flattened());
-        bytes.extend(self.levels);
-        bytes.push(self.level);
-        bytes.extend(self.squared_errors.to_le_bytes());
-        bytes.extend(self.over_budget.to_le_bytes());
-        if let Some(memory) = &self.memory {
-            let touched = memory.touched.map(|touched| touched.bits().to_le_bytes());
-            bytes.extend(touched.as_flattened());
-            bytes.extend(memory.squared_errors.map(f32::to_le_bytes).as_flattened());
-            bytes.extend(memory.variances.map(f32::to_le_bytes).as_flattened());
-            bytes.extend(memory.rays.map(u32::to_le_bytes).as_flattened());
+        Stored {
+            sum: self.sums[at],
+            object: self.objects[at],
+            level: self.levels[at],
+            squared_error: memory.map_or_else(mean, |memory| memory.squared_errors[at]),
+            variance: self.variance(at),
+            cause: memory.map(|memory| Cause {
+                touched: memory.touched[at].bits(),
+                rays: memory.rays[at],
+            }),
         }
     }
 
-    /// Fills an empty tile with what was stored of a picture of `spp` samples a pixel, in a scene with
-    /// this number of objects. `None` if the bytes are no such tile.
-    pub(crate) fn restored(mut self, mut bytes: &[u8], spp: u32, objects: usize) -> Option<Self> {
-        let last = Step::Samples(0..spp).level();
-        for sum in &mut self.sums {
-            let mut channel = || next(&mut bytes).map(f64::from_le_bytes);
-            *sum = Rgb::new(channel()?, channel()?, channel()?);
-        }
-        for object in &mut self.objects {
-            *object = u32::from_le_bytes(next(&mut bytes)?);
-            if *object != NO_OBJECT && objects <= *object as usize {
-                return None;
-            }
-        }
-        for level in &mut self.levels {
-            let [stored] = next(&mut bytes)?;
-            // Pixels beyond the edge are the same in all tiles with this number.
-            if (*level == BEYOND) != (stored == BEYOND) || stored != BEYOND && last < stored {
-                return None;
-            }
-            *level = stored;
-        }
-        [self.level] = next(&mut bytes)?;
-        if last < self.level {
-            return None;
-        }
-        self.grid = NO_GRID;
-        self.squared_errors = f64::from_le_bytes(next(&mut bytes)?);
-        self.over_budget = u64::from_le_bytes(next(&mut bytes)?);
+    /// Takes over a pixel, by its index, into an empty tile. [`Tile::settle`] comes after all pixels.
+    pub(crate) fn store(&mut self, at: usize, pixel: &Stored) {
+        self.sums[at] = pixel.sum;
+        self.objects[at] = pixel.object;
+        self.levels[at] = pixel.level;
         if let Some(memory) = &mut self.memory {
-            for touched in &mut memory.touched {
-                *touched = Dependencies::of_bits(u64::from_le_bytes(next(&mut bytes)?));
-            }
-            for error in &mut memory.squared_errors {
-                *error = f32::from_le_bytes(next(&mut bytes)?);
-            }
-            for variance in &mut memory.variances {
-                *variance = f32::from_le_bytes(next(&mut bytes)?);
-            }
-            for rays in &mut memory.rays {
-                *rays = u32::from_le_bytes(next(&mut bytes)?);
-            }
+            let Cause { touched, rays } = pixel.cause.unwrap_or(Cause::UNKNOWN);
+            memory.squared_errors[at] = pixel.squared_error;
+            memory.variances[at] = pixel.variance;
+            memory.touched[at] = Dependencies::of_bits(touched);
+            memory.rays[at] = rays;
+        } else {
+            self.squared_errors += f64::from(pixel.squared_error);
         }
-        bytes.is_empty().then_some(self)
+    }
+
+    /// Ends taking over pixels, of which those that have not stopped have at least this level. The grid
+    /// is not stored: a tile that lacks a sample of a pixel takes the grids again.
+    pub(crate) fn settle(&mut self, level: u8) {
+        let is_begun = !self.levels.contains(&0);
+        self.level = if is_begun { level } else { 0 };
+        if let Some(memory) = &self.memory {
+            let errors = memory.squared_errors.iter();
+            self.squared_errors = errors.copied().map(f64::from).sum();
+        }
+    }
+
+    /// The top left pixel.
+    pub(crate) fn corner(&self) -> [u32; 2] {
+        self.corner
+    }
+
+    /// Whether the rays traced for each of its pixels are known.
+    pub(crate) fn tells_rays(&self) -> bool {
+        let memory = self.memory.as_ref();
+        memory.is_some_and(|memory| !memory.rays.contains(&Cause::UNKNOWN.rays))
+    }
+
+    /// Adds rays traced for it.
+    pub(crate) fn add_rays(&mut self, traced: Counts) {
+        self.counts.rays += traced.rays;
+        self.counts.shadow_rays += traced.shadow_rays;
+    }
+
+    /// Counts its rays from 0 again.
+    pub(crate) fn forget_rays(&mut self) {
+        self.counts = Counts {
+            over_budget: self.counts.over_budget,
+            ..Counts::default()
+        };
     }
 }
 
@@ -98,11 +130,4 @@ impl Tile {
         let mut pixels = self.levels.iter().zip(&self.sums);
         pixels.any(|(&level, &sum)| level == 0 && sum != Rgb::ZERO)
     }
-}
-
-/// Takes the first bytes.
-fn next<const N: usize>(bytes: &mut &[u8]) -> Option<[u8; N]> {
-    let (first, rest) = bytes.split_first_chunk()?;
-    *bytes = rest;
-    Some(*first)
 }

@@ -30,7 +30,7 @@ impl Emitters {
         picked: Picked,
         place: [f64; 2],
     ) -> Option<Choice> {
-        let aim = self.patch(scene, picked.emitter)?.aim(from, place)?;
+        let aim = aim::aim(&self.patch(scene, picked.emitter)?, from, place)?;
         Some(self.choice(picked, aim))
     }
 }

@@ -208,7 +208,7 @@ fn exported(id: ExportId, path: impl Into<PathBuf>, version: Option<Version>) ->
 fn traced_by(effect: &Effect) -> Option<(Target, &Job)> {
     match effect {
         Effect::Trace(target, job) => Some((*target, job)),
-        Effect::Recall(job, _) => Some((Target::Trace, job)),
+        Effect::Recall(job, _, _) => Some((Target::Trace, job)),
         _ => None,
     }
 }

@@ -41,11 +41,11 @@ pub(crate) fn start(shared: &mut Shared) -> Vec<Effect> {
     vec![trace_from_kept(shared, job)]
 }
 
-/// Starts the full-size trace from what an earlier run left of it, if that can be known: a text
+/// Starts the full-size trace from what an earlier run left of it, or a render, if that can be known: a text
 /// with errors is not that of its scene.
 fn trace_from_kept(shared: &Shared, job: Job) -> Effect {
     match exports::origin(shared) {
-        Some(origin) => Effect::Recall(job, origin),
+        Some(origin) => Effect::Recall(job, origin, exports::export_path(shared)),
         None => Effect::Trace(Target::Trace, job),
     }
 }

@@ -4,8 +4,75 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use super::*;
-use crate::shell::traces::tests::{Place, far, job, traced};
-use scene::Viewpoint;
+use crate::layout::tests::size;
+use language::{Language, Source};
+use render::{Frames, Settings, Threads};
+use scene::{Images, Meshes, Rendering, Viewpoint};
+
+/// A small picture with samples, of the template.
+pub(crate) fn job(spp: u32) -> Job {
+    let text = Arc::new(Language::Ray.template().to_owned());
+    let lowered = Source::new(Language::Ray, text).lower(&Meshes::default());
+    let scene = lowered.expect("there is memory").scene;
+    let scene = scene.expect("it is valid");
+    Job {
+        camera: scene.camera,
+        settings: Settings {
+            spp,
+            depth: 4,
+            transfer: scene.setting.rendering.transfer(),
+            ..Settings::new(size(5, 4), &Rendering::default())
+        },
+        scene: Arc::new(scene),
+        images: Images::default(),
+        limit: None,
+        frames: Frames::Live,
+        denoise: false,
+        numbers: None,
+    }
+}
+
+/// The complete picture of a job.
+fn traced(job: &Job) -> Kept {
+    let (wake, woken) = mpsc::channel();
+    let wake = move || {
+        let _ = wake.send(());
+    };
+    let mut renderer = Renderer::new(Threads::Exactly(1), wake);
+    renderer.restart(job.clone()).expect("the worker runs");
+    loop {
+        woken.recv().expect("the worker runs");
+        let frame = renderer.latest();
+        if frame.is_some_and(|frame| frame.progress.complete) {
+            return renderer.keep().expect("it is complete");
+        }
+    }
+}
+
+/// A state folder.
+struct Place {
+    folder: tempfile::TempDir,
+    traces: Traces,
+}
+
+impl Place {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let traces = Traces::below(folder.path().to_owned());
+        Self { folder, traces }
+    }
+
+    /// The only trace.
+    fn file(&self) -> PathBuf {
+        let traces = self.folder.path().join("halflight/traces");
+        let entry = fs::read_dir(traces).expect("a folder").next();
+        entry.expect("a trace").expect("an entry").path()
+    }
+}
+
+fn far() -> Instant {
+    Instant::now() + Duration::from_secs(60)
+}
 
 /// The origin of a text that the file names.
 fn origin(place: &tempfile::TempDir, text: &str) -> Origin {
@@ -39,7 +106,13 @@ impl Test {
         let (report, reported) = mpsc::channel();
         let report = move |recalled| report.send(recalled).expect("it is awaited");
         let traces = Some(self.place.traces.clone());
-        let found = Traced::recall(&self.job, origin(&self.files, text), traces, report);
+        let beside = self.files.path().join("a.bmp");
+        let found = Traced::recall(
+            &self.job,
+            origin(&self.files, text),
+            (traces, beside),
+            report,
+        );
         let (traced, recalled) = found.expect("a thread");
         let is_brought = recalled.recv().is_ok();
         (traced, reported.recv().ok(), is_brought)
@@ -130,7 +203,7 @@ fn what_cannot_be_continued_is_reported() {
     let (_, reported, is_brought) = test.recall("first");
     assert_eq!((reported, is_brought), (Some(Recalled::More(4)), false));
     test.job.settings.spp = 4;
-    fs::write(test.place.files().remove(0), "damaged").expect("it is ours");
+    fs::write(test.place.file(), "damaged").expect("it is ours");
     let (_, reported, is_brought) = test.recall("first");
     assert!(matches!(reported, Some(Recalled::Unreadable(_))) && !is_brought);
 }
@@ -153,7 +226,7 @@ fn the_cost_is_seen_of_the_picture_of_light() {
 #[test]
 fn a_short_trace_is_not_kept() {
     let test = Test::new();
-    let mut renderer = Renderer::new(render::Threads::Exactly(1), || {});
+    let mut renderer = Renderer::new(Threads::Exactly(1), || {});
     renderer.restart(test.job.clone()).expect("the worker runs");
     let keeping = Traced::of(&test.job).keep(renderer, Some(test.now("first")), far());
     assert_eq!(keeping.finish(), TraceEnd::Nothing);

@@ -5,7 +5,7 @@ use std::sync::mpsc;
 use super::*;
 use crate::layout::tests::size;
 use crate::options::Rehearsal;
-use crate::shell::traces::tests::job;
+use crate::shell::job;
 use scene::MAX_SPP;
 
 /// A picture that would take minutes.
@@ -72,7 +72,7 @@ fn a_page_recalls_and_keeps_no_trace() {
         found: BTreeMap::new(),
         view: scene::Viewpoint::default(),
     };
-    let started = runtime.perform(Effect::Recall(job, origin));
+    let started = runtime.perform(Effect::Recall(job, origin, PathBuf::from("a.bmp")));
     assert!(matches!(started, Some(Msg::Started(Target::Trace, _))));
     let traced = runtime.traced.as_ref().expect("it is traced");
     assert!(!traced.was_looked_for());

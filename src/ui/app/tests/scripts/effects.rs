@@ -10,7 +10,7 @@ pub(super) fn called(effect: &Effect) -> String {
     let of = |words: &str, path: &Path| format!("{words} {}", path.display());
     match effect {
         Effect::Trace(target, _) => format!("trace {}", name(*target)),
-        Effect::Recall(_, origin) => {
+        Effect::Recall(_, origin, _) => {
             let view = origin.view.to_string();
             let from = if view.is_empty() { "" } else { " from " };
             format!("recall{from}{view}")

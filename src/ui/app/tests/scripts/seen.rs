@@ -54,7 +54,7 @@ impl Session {
         let mut written = self.effects.iter().filter_map(|effect| match effect {
             Effect::Save { text, .. } | Effect::WriteTrack { text, .. } => Some(text.as_str()),
             Effect::Film(_, reel, _) => Some(reel.text.as_str()),
-            Effect::Recall(_, origin) => Some(origin.text.as_str()),
+            Effect::Recall(_, origin, _) => Some(origin.text.as_str()),
             Effect::LookForKept(sought) => Some(sought.text.as_str()),
             Effect::CopyText(text) => Some(text.as_str()),
             Effect::WriteRecovery { known, .. } => Some(known.text().as_str()),

@@ -3,19 +3,23 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
-use std::sync::{Arc, mpsc};
+use std::sync::Arc;
 use std::time::Duration;
 
 use tempfile::TempDir;
 
 use super::*;
-use crate::layout::tests::size;
 use language::{Language, Source};
-use render::{Frames, Renderer, Settings, Threads};
-use scene::{Images, Meshes, Rendering, Viewpoint};
+use render::{Block, Blocks, Frames, Job, Settings};
+use scene::{Images, Meshes, Rendering, Size, Viewpoint};
+
+const SIZE: Size = Size {
+    width: 5,
+    height: 4,
+};
 
 /// A small picture with samples, of the template.
-pub(crate) fn job(spp: u32) -> Job {
+fn job(spp: u32) -> Job {
     let text = Arc::new(Language::Ray.template().to_owned());
     let lowered = Source::new(Language::Ray, text).lower(&Meshes::default());
     let scene = lowered.expect("there is memory").scene;
@@ -26,7 +30,7 @@ pub(crate) fn job(spp: u32) -> Job {
             spp,
             depth: 4,
             transfer: scene.setting.rendering.transfer(),
-            ..Settings::new(size(5, 4), &Rendering::default())
+            ..Settings::new(SIZE, &Rendering::default())
         },
         scene: Arc::new(scene),
         images: Images::default(),
@@ -37,42 +41,33 @@ pub(crate) fn job(spp: u32) -> Job {
     }
 }
 
-/// The complete picture of a job.
-pub(crate) fn traced(job: &Job) -> Kept {
-    let (wake, woken) = mpsc::channel();
-    let wake = move || {
-        let _ = wake.send(());
+/// A complete picture of a job.
+fn traced(job: &Job) -> Kept {
+    let block = Block {
+        samples: job.settings.spp,
+        variances: vec![0.5; 20],
+        ..Block::new(0, Blocks::of(SIZE))
     };
-    let mut renderer = Renderer::new(Threads::Exactly(1), wake);
-    renderer.restart(job.clone()).expect("the worker runs");
-    loop {
-        woken.recv().expect("the worker runs");
-        let frame = renderer.latest();
-        if frame.is_some_and(|frame| frame.progress.complete) {
-            return renderer.keep().expect("it is complete");
-        }
-    }
+    Kept::of([Ok(block)], Duration::from_secs(20), job).expect("it is a picture of the job")
 }
 
 fn picture(job: &Job) -> Provenance {
     Provenance::of(job, "c0ffee".to_owned())
 }
 
-pub(crate) fn far() -> Instant {
+fn far() -> Instant {
     Instant::now() + Duration::from_secs(60)
 }
 
-pub(crate) struct Place {
+struct Place {
     folder: TempDir,
-    pub(crate) traces: Traces,
+    traces: Traces,
 }
 
 impl Place {
-    pub(crate) fn new() -> Self {
+    fn new() -> Self {
         let folder = tempfile::tempdir().expect("a folder");
-        let traces = Traces {
-            state: folder.path().to_owned(),
-        };
+        let traces = Traces::below(folder.path().to_owned());
         Self { folder, traces }
     }
 
@@ -82,7 +77,7 @@ impl Place {
     }
 
     /// The files, sorted.
-    pub(crate) fn files(&self) -> Vec<PathBuf> {
+    fn files(&self) -> Vec<PathBuf> {
         let entries = fs::read_dir(self.kept()).into_iter().flatten();
         let paths = entries.map(|entry| entry.expect("an entry").path());
         paths.collect::<BTreeSet<_>>().into_iter().collect()
@@ -95,7 +90,7 @@ impl Place {
 
     /// The path of the trace of a picture.
     fn place(&self, picture: &Provenance) -> PathBuf {
-        self.at(&name(&head(picture)))
+        self.at(&name(picture))
     }
 
     fn write(&self, job: &Job, kept: &Kept) {
@@ -103,10 +98,10 @@ impl Place {
         written.expect("it is written");
     }
 
-    /// The mean samples of the trace kept of a job.
-    fn read(&self, picture: &Provenance, job: &Job) -> Option<u32> {
-        let read = self.traces.read(picture, job).expect("it can be read");
-        read.map(|kept| kept.spp())
+    /// The mean samples of the trace kept of a picture.
+    fn read(&self, picture: &Provenance) -> Option<u32> {
+        let found = self.traces.find(picture).expect("it can be read");
+        found.map(|contents| (contents.all_taken() / SIZE.pixels() as u64) as u32)
     }
 }
 
@@ -114,12 +109,12 @@ impl Place {
 fn a_trace_is_read_back_for_the_same_picture_only() {
     type Change = fn(&mut Provenance);
     let (place, first) = (Place::new(), job(4));
-    let found = place.read(&picture(&first), &first);
+    let found = place.read(&picture(&first));
     assert_eq!(found, None, "there is no folder");
     place.write(&first, &traced(&first));
     for spp in [1, 4, 100] {
         let same = job(spp);
-        assert_eq!(place.read(&picture(&same), &same), Some(4));
+        assert_eq!(place.read(&picture(&same)), Some(4));
     }
     for change in [
         (|own| own.version = "0.0.0".to_owned()) as Change,
@@ -129,7 +124,7 @@ fn a_trace_is_read_back_for_the_same_picture_only() {
     ] {
         let mut other = picture(&first);
         change(&mut other);
-        assert_eq!(place.read(&other, &first), None, "{other:?}");
+        assert_eq!(place.read(&other), None, "{other:?}");
     }
     #[cfg(unix)]
     {
@@ -148,8 +143,8 @@ fn a_damaged_file_is_refused_and_removed() {
     let bytes = fs::read(&path).expect("it is there");
     let is_refused = |bytes: &[u8]| {
         fs::write(&path, bytes).expect("it is ours");
-        let read = place.traces.read(&picture(&job), &job);
-        matches!(read, Err(Unreadable::Damaged)) && !path.exists()
+        let read = place.traces.find(&picture(&job));
+        matches!(read, Err(NoTrace::Damaged)) && !path.exists()
     };
     for at in KIND.len()..bytes.len() {
         let mut damaged = bytes.clone();
@@ -161,7 +156,29 @@ fn a_damaged_file_is_refused_and_removed() {
     }
     assert!(is_refused(&[&bytes[..], b"\0"].concat()), "a byte more");
     fs::write(&path, &bytes).expect("it is ours");
-    assert_eq!(place.read(&picture(&job), &job), Some(1));
+    assert_eq!(place.read(&picture(&job)), Some(1));
+}
+
+/// One that an earlier version kept of the same film.
+#[test]
+fn a_trace_of_an_earlier_form_is_named_and_left_alone() {
+    let (place, job) = (Place::new(), job(1));
+    place.write(&job, &traced(&job));
+    let lines = picture(&job).of_film().lines();
+    let head = format!("halflight trace 2\n{lines}");
+    let old = place.at(&format!("{}{OLD_END}", digits(&head)));
+    fs::write(&old, format!("{head}samples 20\n\0")).expect("the folder is there");
+    assert_eq!(place.read(&picture(&job)), Some(1));
+    fs::remove_file(place.place(&picture(&job))).expect("it is there");
+    let error = place.traces.find(&picture(&job));
+    let said = error.expect_err("its form is another").to_string();
+    let named = format!(
+        "the full-size trace {} was written by an earlier",
+        old.display()
+    );
+    assert!(said.starts_with(&named), "{said}");
+    overfill(&place);
+    assert!(old.exists());
 }
 
 #[test]
@@ -170,7 +187,7 @@ fn more_samples_are_not_replaced_by_fewer() {
     place.write(&few, &traced(&few));
     place.write(&many, &traced(&many));
     place.write(&few, &traced(&few));
-    assert_eq!(place.read(&picture(&few), &few), Some(8));
+    assert_eq!(place.read(&picture(&few)), Some(8));
     assert_eq!(place.files().len(), 1);
 }
 
@@ -184,7 +201,7 @@ fn a_trace_that_takes_too_long_to_write_leaves_what_was_there() {
         assert_eq!(error.kind(), ErrorKind::TimedOut);
         assert!(place.files().len() <= 1);
         place.write(&few, &traced(&few));
-        assert_eq!(place.read(&picture(&few), &few), Some(2));
+        assert_eq!(place.read(&picture(&few)), Some(2));
     }
 }
 
@@ -215,7 +232,7 @@ fn the_newest_files_are_kept() {
         date(depth);
     }
     let left = || -> Vec<u32> {
-        let read = |&depth: &u32| place.read(&picture(&with_depth(&first, depth)), &first);
+        let read = |&depth: &u32| place.read(&picture(&with_depth(&first, depth)));
         (1..=7).filter(|depth| read(depth).is_some()).collect()
     };
     assert_eq!(left(), [2, 3, 4, 5]);
@@ -249,15 +266,15 @@ fn files_of_others_are_neither_removed_nor_replaced() {
     place.write(&first, &traced(&first));
     let hex = |digit: &str| digit.repeat(DIGITS);
     let outside = place.folder.path().join("precious");
-    fs::write(&outside, "halflight trace 2\nmine").expect("the folder is new");
-    symlink(&outside, place.at(&format!("{}.trace", hex("a")))).expect("it is new");
-    fs::create_dir(place.at(&format!("{}.trace", hex("b")))).expect("it is new");
+    fs::write(&outside, "halflight part 2\nmine").expect("the folder is new");
+    symlink(&outside, place.at(&format!("{}.part", hex("a")))).expect("it is new");
+    fs::create_dir(place.at(&format!("{}.part", hex("b")))).expect("it is new");
     let foreign = [
-        ("run.trace".to_owned(), "halflight trace 2\n"),
-        (format!("{}.trace", hex("c")), "mine"),
-        (format!("{}.trace", hex("d")), ""),
-        (format!("{}.trace", hex("g")), "halflight trace 2\n"),
-        (format!("{}.trace.1.new", hex("e")), "mine"),
+        ("run.part".to_owned(), "halflight part 2\n"),
+        (format!("{}.part", hex("c")), "mine"),
+        (format!("{}.part", hex("d")), ""),
+        (format!("{}.part", hex("g")), "halflight part 2\n"),
+        (format!("{}.part.1.new", hex("e")), "mine"),
     ];
     for (name, text) in &foreign {
         fs::write(place.at(name), text).expect("it is new");
@@ -279,8 +296,8 @@ fn files_of_others_are_neither_removed_nor_replaced() {
         plant(&own, &outside).expect("it is free");
         let written = place.traces.write(&picture(&first), &traced(&first), far());
         written.expect_err("it is not ours");
-        let read = place.traces.read(&picture(&first), &first);
-        assert!(matches!(read, Err(Unreadable::Io(_))));
+        let read = place.traces.find(&picture(&first));
+        assert!(matches!(read, Err(NoTrace::Io(_))));
         assert!(own.symlink_metadata().is_ok());
     }
 }
@@ -293,8 +310,8 @@ fn a_folder_that_leads_elsewhere_is_not_used() {
     let away = place.folder.path().join("away");
     fs::rename(place.kept(), &away).expect("it is ours");
     std::os::unix::fs::symlink(&away, place.kept()).expect("it is free");
-    let read = place.traces.read(&picture(&job), &job);
-    assert!(matches!(read, Err(Unreadable::Io(_))));
+    let read = place.traces.find(&picture(&job));
+    assert!(matches!(read, Err(NoTrace::Io(_))));
     let written = place.traces.write(&picture(&job), &traced(&job), far());
     let reason = written.expect_err("it is a link").to_string();
     assert!(reason.contains("traces is a symbolic link"), "{reason}");
@@ -304,9 +321,9 @@ fn a_folder_that_leads_elsewhere_is_not_used() {
 fn what_a_crash_left_behind_is_removed_after_an_hour() {
     let (place, first) = (Place::new(), job(1));
     place.write(&first, &traced(&first));
-    let name = |digit: &str| place.at(&format!("{}.trace.7.new", digit.repeat(DIGITS)));
+    let name = |digit: &str| place.at(&format!("{}.part.7.new", digit.repeat(DIGITS)));
     for (digit, hours) in [("a", 0), ("b", 2)] {
-        fs::write(name(digit), "halflight trace 2\n").expect("it is new");
+        fs::write(name(digit), "halflight part 2\n").expect("it is new");
         let age = Duration::from_secs(hours * 3600);
         set_modified(&name(digit), SystemTime::now() - age);
     }

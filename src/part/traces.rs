@@ -1,39 +1,34 @@
-//! Full-size traces kept from one run to the next: `halflight/traces` in the state folder, readable
-//! by their owner only.
+//! Full-size traces of the interface, kept for the next run and for renders: `halflight/traces` in the
+//! state folder, readable by their owner only.
 //!
-//! ```text
-//! halflight trace 2
-//! version 0.1.0
-//! scene 9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0bd3ee0e1f5a3f0b6b9c1d
-//! view own
-//! layers none
-//! size 800x600
-//! …
-//! samples 17760000
-//! ```
-//!
-//! After these lines follow the bytes of [`Kept`], and the SHA-256 of all before. All lines but the
-//! last say what the picture is made from; a file is named after their digest. Files that have no
-//! such name, or do not begin like this, are never replaced or removed.
+//! A trace is a part file that is the whole picture, written at once. Its header says what the film is
+//! made from that all pictures of it share; it is named after their digest. Files that have no such
+//! name, or do not begin like a part, are never replaced or removed.
 
 use std::fs::File;
-use std::io::{self, BufReader, ErrorKind, Read, Seek, Write};
-use std::path::PathBuf;
+use std::io::{self, ErrorKind, Read, Seek, Write};
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
-use crate::state_folder::{self, Folder, NEW, Part};
-use file::{Digest, Digested};
-use render::{Job, Kept, Provenance};
+use super::contents::Contents;
+use super::header::{Header, OldForm};
+use super::reader::Unreadable;
+use super::record::Goal;
+use super::shard::Shard;
+use super::writer::write_whole;
+use file::Digest;
+use file::state_folder::{self, Folder, NEW, Store};
+use render::{Kept, Provenance};
 
-/// The first line, with the version of the format.
-const MAGIC: &str = "halflight trace 2";
-
-/// How the first line of every version begins.
-const KIND: &str = "halflight trace ";
+/// How the first line of every form of parts begins.
+const KIND: &str = "halflight part ";
 
 /// The end of the names of files, and the length of what is before it: hexadecimal digits.
-const END: &str = ".trace";
+const END: &str = ".part";
 const DIGITS: usize = 32;
+
+/// The end of the names of traces of earlier forms.
+const OLD_END: &str = ".trace";
 
 /// Files that were to become traces are removed after this time, which none takes to write.
 const LEFT_BEHIND: Duration = Duration::from_secs(3600);
@@ -42,25 +37,27 @@ const LEFT_BEHIND: Duration = Duration::from_secs(3600);
 const MOST: usize = 4;
 const MOST_BYTES: u64 = 2 << 30;
 
-/// Bytes read at once.
-const CHUNK: usize = 1 << 18;
-
-/// More bytes than the line with the samples has.
-const LONGEST: usize = 40;
-
 /// The folder of kept traces.
 #[derive(Clone, Debug)]
-pub(super) struct Traces {
+pub struct Traces {
     /// The state folder, which need not exist.
     state: PathBuf,
 }
 
 /// Why a kept trace cannot be read.
 #[derive(Debug, thiserror::Error)]
-pub(super) enum Unreadable {
+pub enum NoTrace {
     /// Its bytes are not those that were written. It was removed.
     #[error("the full-size trace of an earlier run was damaged and has been removed")]
     Damaged,
+    /// It has the form of an earlier version.
+    #[error("the full-size trace {path} {form}", path = path.display())]
+    Old {
+        /// The file.
+        path: PathBuf,
+        /// Its form.
+        form: OldForm,
+    },
     /// The file system reported an error, or memory is short.
     #[error("the full-size trace of an earlier run cannot be read: {0}")]
     Io(#[from] io::Error),
@@ -68,79 +65,109 @@ pub(super) enum Unreadable {
 
 impl Traces {
     /// The folder in the user's state folder. Fails if the environment names none.
-    pub(super) fn of_user() -> io::Result<Self> {
-        Ok(Self {
-            state: state_folder::path()?,
-        })
+    pub fn of_user() -> io::Result<Self> {
+        Ok(Self::below(state_folder::path()?))
+    }
+
+    /// The folder in a state folder.
+    pub fn below(state: PathBuf) -> Self {
+        Self { state }
     }
 
     /// Writes a trace, unless as many samples of it are kept already, and removes the oldest ones
     /// beyond [`MOST`] and [`MOST_BYTES`]. Stops at the deadline, which leaves what was there.
-    pub(super) fn write(
-        &self,
-        picture: &Provenance,
-        kept: &Kept,
-        deadline: Instant,
-    ) -> io::Result<()> {
-        let folder = Folder::make(&self.state, Part::Traces)?;
-        let (head, samples) = (head(picture), kept.samples());
-        let name = name(&head);
+    pub fn write(&self, picture: &Provenance, kept: &Kept, deadline: Instant) -> io::Result<()> {
+        let folder = Folder::make(&self.state, Store::Traces)?;
+        let picture = picture.of_film();
+        let name = name(&picture);
         if let Some(file) = open(&folder, &name)?
-            && samples_of(file, &head).is_ok_and(|there| samples <= there)
+            && let Ok(there) = Contents::of(file)
+            && is_whole(&there, &picture)
+            && kept.samples() <= there.all_taken()
         {
             return Ok(());
         }
+        let goal = Goal {
+            spp: kept.goal(),
+            time: kept.time(),
+        };
         let write = |out: &mut dyn Write| {
-            let mut out = Digested::new(Timed { out, deadline });
-            writeln!(out, "{head}samples {samples}")?;
-            kept.write(&mut out)?;
-            let (mut out, digest) = out.finish();
-            out.write_all(&digest)?;
-            out.flush()
+            let mut out = Timed { out, deadline };
+            write_whole(&picture, goal, kept.blocks(), &mut out)
         };
         folder.replace(&name, write)?;
         tidy(&folder, &name);
         Ok(())
     }
 
-    /// Reads the trace that was kept of a picture and that the job can continue, if there is one.
-    /// Removes a damaged one.
-    pub(super) fn read(&self, picture: &Provenance, job: &Job) -> Result<Option<Kept>, Unreadable> {
-        let Some(folder) = Folder::find(&self.state, Part::Traces)? else {
+    /// The trace that was kept of the film of a picture, if there is one. Removes a damaged one.
+    pub fn find(&self, picture: &Provenance) -> Result<Option<Contents>, NoTrace> {
+        let Some(folder) = Folder::find(&self.state, Store::Traces)? else {
             return Ok(None);
         };
-        let head = head(picture);
-        let name = name(&head);
+        let picture = picture.of_film();
+        let name = name(&picture);
         let Some(file) = open(&folder, &name)? else {
-            return Ok(None);
+            return find_old(&folder, &picture);
         };
-        let read = || {
-            let mut from = Digested::new(BufReader::with_capacity(CHUNK, file));
-            check_head(&mut from, &head)?;
-            samples_in(&mut from)?;
-            let kept = Kept::read(&mut from, job)?;
-            let (from, digest) = from.finish();
-            let mut end = Vec::new();
-            from.take(digest.len() as u64 + 1).read_to_end(&mut end)?;
-            if end != digest {
-                return Err(io::Error::from(ErrorKind::InvalidData));
-            }
-            Ok(kept)
-        };
-        read().map(Some).map_err(|error| match error.kind() {
-            ErrorKind::InvalidData | ErrorKind::UnexpectedEof => {
+        match Contents::of(file) {
+            Ok(contents) if is_whole(&contents, &picture) => Ok(Some(contents)),
+            Err(Unreadable::Io(error)) => Err(error.into()),
+            Err(Unreadable::Old(form)) => Err(NoTrace::Old {
+                path: folder.place(&name),
+                form,
+            }),
+            Ok(_) | Err(Unreadable::NoPart) => {
                 let _ = folder.remove(&name);
-                Unreadable::Damaged
+                Err(NoTrace::Damaged)
             }
-            _ => error.into(),
-        })
+        }
     }
 }
 
-/// The name of the file of a picture.
-fn name(head: &str) -> String {
-    let digest = Digest::of([head.as_bytes()]);
-    format!("{}{END}", &digest[..DIGITS])
+/// The part at a path, if there is one of the film of a picture, and all of it.
+pub fn find_part(path: &Path, picture: &Provenance) -> Option<Contents> {
+    let contents = Contents::of(file::open(path).ok()?).ok()?;
+    is_of(contents.header(), &picture.of_film()).then_some(contents)
+}
+
+/// Whether a trace is as it was written, of this film.
+fn is_whole(contents: &Contents, picture: &Provenance) -> bool {
+    contents.is_whole() && is_of(contents.header(), picture)
+}
+
+/// Whether a file is the only part of a picture that the film behind it shows.
+fn is_of(header: &Header, film: &Provenance) -> bool {
+    let is_seen = header.picture.is_of_film();
+    is_seen && header.shard == Shard::WHOLE && header.picture.of_film().lines() == film.lines()
+}
+
+/// Fails if there is a trace of a film in an earlier form.
+fn find_old(folder: &Folder, picture: &Provenance) -> Result<Option<Contents>, NoTrace> {
+    for kind in OldForm::TRACES {
+        let head = format!("{kind}\n{}", picture.lines());
+        let name = format!("{}{OLD_END}", digits(&head));
+        if let Some(file) = folder.open(&name)? {
+            let mut beginning = String::new();
+            let read = file.take(head.len() as u64).read_to_string(&mut beginning);
+            if let Some(form) = read.ok().and_then(|_| OldForm::of(&beginning)) {
+                let path = folder.place(&name);
+                return Err(NoTrace::Old { path, form });
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// The name of the file of a film.
+fn name(picture: &Provenance) -> String {
+    format!("{}{END}", digits(&picture.lines()))
+}
+
+fn digits(text: &str) -> String {
+    let mut digest = Digest::of([text.as_bytes()]);
+    digest.truncate(DIGITS);
+    digest
 }
 
 /// Whether a file may have this name.
@@ -174,13 +201,6 @@ fn open(folder: &Folder, name: &str) -> io::Result<Option<File>> {
     Ok(Some(file))
 }
 
-/// The number of samples that a file says it has. Fails if it is of another picture.
-fn samples_of(file: File, head: &str) -> io::Result<u64> {
-    let mut from = BufReader::new(file);
-    check_head(&mut from, head)?;
-    samples_in(&mut from)
-}
-
 /// Removes what was left behind, and the oldest traces but the newest, which was just written, if
 /// there are too many.
 fn tidy(folder: &Folder, newest: &str) {
@@ -210,36 +230,6 @@ fn tidy(folder: &Folder, newest: &str) {
     }
 }
 
-/// All lines but the last.
-fn head(picture: &Provenance) -> String {
-    format!("{MAGIC}\n{}", picture.lines())
-}
-
-/// Reads these lines; fails if there are others.
-fn check_head(from: &mut impl Read, head: &str) -> io::Result<()> {
-    let mut found = vec![0; head.len()];
-    from.read_exact(&mut found)?;
-    if found != head.as_bytes() {
-        return Err(ErrorKind::InvalidData.into());
-    }
-    Ok(())
-}
-
-/// Reads the last line.
-fn samples_in(from: &mut impl Read) -> io::Result<u64> {
-    let (mut line, mut byte) = (String::new(), [0]);
-    while line.len() < LONGEST {
-        from.read_exact(&mut byte)?;
-        if byte == *b"\n" {
-            let samples = line.strip_prefix("samples ");
-            let samples = samples.and_then(|samples| samples.parse().ok());
-            return samples.ok_or_else(|| ErrorKind::InvalidData.into());
-        }
-        line.push(char::from(byte[0]));
-    }
-    Err(ErrorKind::InvalidData.into())
-}
-
 /// A writer that fails from the deadline on.
 struct Timed<W> {
     out: W,
@@ -261,4 +251,4 @@ impl<W: Write> Write for Timed<W> {
 }
 
 #[cfg(test)]
-pub(super) mod tests;
+mod tests;

@@ -26,7 +26,7 @@ use unix::{FolderHandle, Missing, at, suspicion};
 
 /// What is kept, each in a folder of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Part {
+pub enum Store {
     /// Recent scenes and the sizes of panels.
     Sessions,
     /// Unsaved edits.
@@ -35,7 +35,7 @@ pub(crate) enum Part {
     Traces,
 }
 
-impl Part {
+impl Store {
     /// The folders below the state folder, outermost first.
     const fn names(self) -> &'static [&'static str] {
         match self {
@@ -56,27 +56,27 @@ impl Part {
 const NOT_REGULAR: &str = "is not a regular file";
 
 /// The end of the names of files that are to replace others.
-pub(crate) const NEW: &str = ".new";
+pub const NEW: &str = ".new";
 
 /// The bytes of a file that are written at once.
 const CHUNK: usize = 1 << 18;
 
 /// A folder, held open.
 #[derive(Debug)]
-pub(crate) struct Folder {
+pub struct Folder {
     path: PathBuf,
     held: FolderHandle,
 }
 
 /// The path of a folder of the user's. Fails if nothing can be kept there.
-pub(crate) fn place(part: Part) -> io::Result<PathBuf> {
+pub fn place(part: Store) -> io::Result<PathBuf> {
     let state = path()?;
     Folder::find(&state, part)?;
     Ok(part.path_in(&state))
 }
 
 /// The state folder that the environment defines.
-pub(crate) fn path() -> io::Result<PathBuf> {
+pub fn path() -> io::Result<PathBuf> {
     state_by(|name| env::var_os(name))
 }
 
@@ -93,7 +93,7 @@ fn state_by(set: impl Fn(&str) -> Option<OsString>) -> io::Result<PathBuf> {
 
 impl Folder {
     /// Opens a folder in a state folder, creating both if they are missing.
-    pub(crate) fn make(state: &Path, part: Part) -> io::Result<Self> {
+    pub fn make(state: &Path, part: Store) -> io::Result<Self> {
         let mut builder = DirBuilder::new();
         #[cfg(unix)]
         std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
@@ -103,37 +103,37 @@ impl Folder {
     }
 
     /// Opens a folder in a state folder; `None` if it is missing.
-    pub(crate) fn find(state: &Path, part: Part) -> io::Result<Option<Self>> {
+    pub fn find(state: &Path, part: Store) -> io::Result<Option<Self>> {
         match Self::open_in(state, part, Missing::Refused) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             opened => opened.map(Some),
         }
     }
 
-    fn open_in(state: &Path, part: Part, missing: Missing) -> io::Result<Self> {
+    fn open_in(state: &Path, part: Store, missing: Missing) -> io::Result<Self> {
         let held = FolderHandle::of(state, part.names(), missing)?;
         let path = part.path_in(state);
         Ok(Self { path, held })
     }
 
     /// Whether the folder is still at its path and nobody else can write to it.
-    pub(crate) fn is_sound(&self) -> bool {
+    pub fn is_sound(&self) -> bool {
         self.held.is_sound(&self.path).unwrap_or(false)
     }
 
     /// Whether a name in the folder refers to this open file.
-    pub(crate) fn has(&self, name: &str, file: &File) -> io::Result<bool> {
+    pub fn has(&self, name: &str, file: &File) -> io::Result<bool> {
         self.held.has(&self.path, name, file)
     }
 
     /// Creates a file for writing. Fails if the name exists, even as a link.
-    pub(crate) fn create(&self, name: &str) -> io::Result<File> {
+    pub fn create(&self, name: &str) -> io::Result<File> {
         let made = self.held.create(&self.path, name);
         made.map_err(|error| at(&self.path, &error))
     }
 
     /// Opens a file for reading, if it exists. Fails unless it is a regular file of our own.
-    pub(crate) fn open(&self, name: &str) -> io::Result<Option<File>> {
+    pub fn open(&self, name: &str) -> io::Result<Option<File>> {
         let place = self.place(name);
         let refused = |reason| {
             let reason = format!("{} {reason}", place.display());
@@ -155,19 +155,19 @@ impl Folder {
     }
 
     /// Why a file cannot be one of ours, phrased to follow its name.
-    pub(crate) fn refusal(metadata: &Metadata) -> Option<&'static str> {
+    pub fn refusal(metadata: &Metadata) -> Option<&'static str> {
         let not_regular = Some(NOT_REGULAR).filter(|_| !metadata.is_file());
         not_regular.or_else(|| suspicion(metadata))
     }
 
     /// Whether a name in the folder is taken; `false` if that cannot be determined.
-    pub(crate) fn holds(&self, name: &str) -> bool {
+    pub fn holds(&self, name: &str) -> bool {
         self.place(name).symlink_metadata().is_ok()
     }
 
     /// Replaces or creates a file, of which at any moment the old or the complete new content is
     /// there. A link in its place is replaced, not followed.
-    pub(crate) fn replace(
+    pub fn replace(
         &self,
         name: &str,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -190,19 +190,19 @@ impl Folder {
     }
 
     /// The names in the folder.
-    pub(crate) fn names(&self) -> Vec<String> {
+    pub fn names(&self) -> Vec<String> {
         let entries = self.path.read_dir().into_iter().flatten().flatten();
         let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
         names.collect()
     }
 
     /// Renames a file, replacing any file of the new name.
-    pub(crate) fn rename(&self, from: &str, to: &str) -> io::Result<()> {
+    pub fn rename(&self, from: &str, to: &str) -> io::Result<()> {
         self.held.rename(&self.path, from, to)
     }
 
     /// Removes a file, if it exists.
-    pub(crate) fn remove(&self, name: &str) -> io::Result<()> {
+    pub fn remove(&self, name: &str) -> io::Result<()> {
         match self.held.remove(&self.path, name) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
             _ => Ok(()),
@@ -210,12 +210,12 @@ impl Folder {
     }
 
     /// Makes names survive a system crash, where folders can be synchronized.
-    pub(crate) fn sync(&self) {
+    pub fn sync(&self) {
         self.held.sync();
     }
 
     /// The path of a file with this name.
-    pub(crate) fn place(&self, name: &str) -> PathBuf {
+    pub fn place(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }
 }
@@ -226,14 +226,18 @@ mod tests {
 
     #[test]
     fn the_state_folder_is_absolute() {
-        for (xdg, home, expected) in table! {
-            Some("/state"), Some("/home/me") => Some("/state");
-            None, Some("/home/me") => Some("/home/me/.local/state");
-            Some(""), Some("/home/me") => Some("/home/me/.local/state");
-            Some("state"), Some("/home/me") => Some("/home/me/.local/state");
-            Some("state"), Some("me") => None;
-            None, None => None;
-        } {
+        for (xdg, home, expected) in [
+            (Some("/state"), Some("/home/me"), Some("/state")),
+            (None, Some("/home/me"), Some("/home/me/.local/state")),
+            (Some(""), Some("/home/me"), Some("/home/me/.local/state")),
+            (
+                Some("state"),
+                Some("/home/me"),
+                Some("/home/me/.local/state"),
+            ),
+            (Some("state"), Some("me"), None),
+            (None, None, None),
+        ] {
             let set = |name: &str| if name == "HOME" { home } else { xdg };
             let found = state_by(|name| set(name).map(OsString::from)).ok();
             assert_eq!(found.as_deref(), expected.map(Path::new));
