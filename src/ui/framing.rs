@@ -61,6 +61,8 @@ fn edge(at: Position, area: Rect) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
+    use ratatui::buffer::Cell;
+
     use super::*;
 
     /// A frame in a buffer of dots that it fills but for one cell at each side.
@@ -73,7 +75,7 @@ mod tests {
         let inner = frame(title, note, Style::new(), area, &mut buffer);
         let sides = [width, height].map(|side| u32::from(side.saturating_sub(2)));
         assert_eq!(inner.area(), sides[0] * sides[1]);
-        let symbols = buffer.content.iter().map(|cell| cell.symbol());
+        let symbols = buffer.content.iter().map(Cell::symbol);
         let symbols: Vec<_> = symbols.collect();
         let lines = symbols.chunks(usize::from(width) + 2).map(<[_]>::concat);
         lines.collect::<Vec<_>>().join("\n")
@@ -107,7 +109,7 @@ mod tests {
         let mut buffer = Buffer::empty(Rect::new(0, 0, 3, 2));
         let inner = frame("a", "", Style::new(), Rect::new(1, 0, 4, 4), &mut buffer);
         assert_eq!(inner, Rect::new(2, 1, 2, 2));
-        let symbols: String = buffer.content.iter().map(|cell| cell.symbol()).collect();
+        let symbols: String = buffer.content.iter().map(Cell::symbol).collect();
         assert_eq!(symbols, " ╭╮ ╰╯");
     }
 }

@@ -63,7 +63,7 @@ fn file(bytes: &[u8]) -> (String, Pixmap) {
     let body = text.strip_prefix("\x1b]1337;File=").expect("a file");
     let (arguments, data) = body.split_once(':').expect("data");
     let data = data.strip_suffix('\x07').expect("the end");
-    let png = base64::decode(&data);
+    let png = base64::decode(data);
     assert!(arguments.contains(&format!("size={};", png.len())));
     (arguments.to_owned(), decoded(&png))
 }
