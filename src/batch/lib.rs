@@ -1,5 +1,6 @@
 //! Headless work, a command a file: check, render (a picture, a part of one, or a sequence), merge,
-//! show, compare, explain, convert and bench. Knows no terminals, except for a progress line if standard error is one.
+//! show, compare, explain, convert and bench. Knows no terminals, except for a progress line if
+//! standard error is one. `render` is the longest: its file tells how it is planned and carried out.
 
 mod bench;
 mod check;

@@ -1,16 +1,16 @@
 //! `halflight render`, from its arguments to its files: planned once, then carried out.
 //!
 //! ```text
-//!                          ┌▶ Estimate   a number is printed
-//! arguments ──▶ Plan ──────┼▶ Picture    traced as a whole or into a part file, then written
-//!  (Render)  (plan, shot)  ├▶ Numbered   a file for each frame that is not finished
-//!                          └▶ Movie      one file for all frames
+//!                ┌▶ Estimate    printed
+//! Render ─▶ Plan ┼▶ Picture     traced as a whole, or block by block into a part file; written
+//!                ├▶ Numbered    each frame that is not finished is planned, traced, written, listed
+//!                └▶ Movie       each frame is planned, traced, added to the file
 //! ```
 //!
-//! [`plan`] reads scenes, decides, and refuses: whatever can be refused before tracing is refused there,
-//! in the order of its checks. It consumes the arguments, so that what carries a plan out has
-//! nothing else to go by. The scenes of a sequence are read one after the other; what plans the
-//! sequence also plans each frame, when its turn comes.
+//! [`plan`] consumes the arguments: what carries a plan out has nothing else to go by. It reads the
+//! scene, and refuses whatever can be refused before tracing, in the order of its checks. The frames
+//! of a sequence are planned there too, but each when its turn comes, because their scenes are read
+//! one after the other.
 
 mod animated;
 mod arguments;
@@ -53,7 +53,7 @@ pub fn render(asked: Render) -> Result<(), Error> {
     done.inspect_err(|error| messages.error(error))
 }
 
-/// What is to be done, now that nothing is left to decide or to refuse before tracing.
+/// What is to be done. Nothing about it is left to decide.
 enum Plan {
     /// Print about how many bytes of memory a picture would take.
     Estimate(u64),
@@ -121,7 +121,7 @@ enum Way {
     Part {
         /// The text of the scene, if it is short.
         source: Option<Source>,
-        part: Opened,
+        part: Box<Opened>,
     },
 }
 

@@ -15,7 +15,7 @@ use batch::{
     Existing, Finished, FrameSource, MAX_FRAMES, Output, Parts, PictureWork, Purpose, Render,
     SequenceOutput, SequenceWork, Work,
 };
-use image_file::{ImageFormat, MovieFormat, Pattern};
+use image_file::{ImageFormat, MovieFormat, NoPattern, Pattern};
 use part::{MOST_SHARDS, Shard};
 use render::Aov;
 
@@ -139,15 +139,15 @@ impl RenderArguments {
     }
 
     fn picture_work(&self) -> Result<PictureWork, String> {
-        let format = match self.format {
-            Some(Format::Picture(format)) => Some(format),
-            Some(Format::Movie(_)) | None => None,
-        };
         if let Some(what) = self.of_sequence() {
             return Err(format!(
                 "{what} needs --turntable, --track, or a folder of scenes"
             ));
         }
+        let format = match self.format {
+            Some(Format::Picture(format)) => Some(format),
+            Some(Format::Movie(_)) | None => None,
+        };
         let target = target(self.output.clone(), format, self.force)?;
         let to_stdout = |path: &PathBuf| path.as_os_str() == "-";
         if self.stats.as_ref().is_some_and(to_stdout) && !matches!(target.output, Output::File(_)) {
@@ -203,10 +203,10 @@ impl RenderArguments {
         let option = options.iter().find(|(is_given, _)| *is_given);
         // Whatever is not there is no folder either.
         let is_pattern = || Pattern::of(&self.output).is_ok() && self.scene.exists();
-        option.map_or_else(
-            || is_pattern().then(|| self.output.display().to_string()),
-            |(_, name)| Some((*name).to_owned()),
-        )
+        match option {
+            Some((_, name)) => Some((*name).to_owned()),
+            None => is_pattern().then(|| self.output.display().to_string()),
+        }
     }
 
     /// The format of one file for all frames of a sequence.
@@ -233,63 +233,67 @@ impl RenderArguments {
                 self.scene.display()
             ));
         }
-        let output = match (self.movie(), Pattern::of(&self.output), self.format) {
-            (Some(_), ..) if self.shard.is_some() => {
-                return Err(
-                    "a .y4m or .gif cannot be sharded: write one file per frame, such as \
-                     out.%05d.png"
-                        .to_owned(),
-                );
-            }
-            (Some(_), ..) if self.resume || self.sequence.again => {
-                let option = if self.resume { "--resume" } else { "--again" };
-                return Err(format!(
-                    "{option} has no finished frames to go by: a .y4m or .gif is rendered from the \
-                     beginning; write one file per frame, such as out.%05d.png"
-                ));
-            }
-            (Some(format), ..) => SequenceOutput::Movie {
-                to: destination(self.output.clone(), self.force),
-                format,
-                rate: self.sequence.fps,
-            },
-            (None, Ok(_), _) if self.sequence.fps.is_some() => {
-                return Err("--fps is for .y4m and .gif: pictures have no rate".to_owned());
-            }
-            (None, Ok(pattern), format) => SequenceOutput::Pictures {
-                format: match format {
-                    Some(Format::Picture(format)) => format,
-                    _ => picture_format(&self.output)?,
-                },
-                pattern,
-                shard: self.shard.unwrap_or(Shard::WHOLE),
-                finished: if self.sequence.again {
-                    Finished::Rendered
-                } else {
-                    Finished::Skipped
-                },
-            },
-            (None, Err(_), _) if self.output.as_os_str() == "-" => {
-                return Err("-o - takes a sequence with --format y4m or gif".to_owned());
-            }
-            (None, Err(reason), _) => {
-                let of_folder = if self.scene.is_dir() {
-                    format!(
-                        "{} is a folder, which makes a sequence, but ",
-                        self.scene.display()
-                    )
-                } else {
-                    String::new()
-                };
-                let name = self.output.display();
-                return Err(format!("{of_folder}{name} {reason}"));
-            }
-        };
         Ok(SequenceWork {
+            output: match self.movie() {
+                Some(format) => self.movie_output(format)?,
+                None => self.numbered_output()?,
+            },
             shows: self.frame_source(),
             frames: self.sequence.frames,
-            output,
         })
+    }
+
+    fn movie_output(&self, format: MovieFormat) -> Result<SequenceOutput, String> {
+        if self.shard.is_some() {
+            return Err(
+                "a .y4m or .gif cannot be sharded: write one file per frame, such as out.%05d.png"
+                    .to_owned(),
+            );
+        }
+        if self.resume || self.sequence.again {
+            let option = if self.resume { "--resume" } else { "--again" };
+            return Err(format!(
+                "{option} has no finished frames to go by: a .y4m or .gif is rendered from the \
+                 beginning; write one file per frame, such as out.%05d.png"
+            ));
+        }
+        Ok(SequenceOutput::Movie {
+            to: destination(self.output.clone(), self.force),
+            format,
+            rate: self.sequence.fps,
+        })
+    }
+
+    fn numbered_output(&self) -> Result<SequenceOutput, String> {
+        let pattern = Pattern::of(&self.output).map_err(|reason| self.no_pattern(reason))?;
+        if self.sequence.fps.is_some() {
+            return Err("--fps is for .y4m and .gif: pictures have no rate".to_owned());
+        }
+        Ok(SequenceOutput::Pictures {
+            format: match self.format {
+                Some(Format::Picture(format)) => format,
+                _ => picture_format(&self.output)?,
+            },
+            pattern,
+            shard: self.shard.unwrap_or(Shard::WHOLE),
+            finished: if self.sequence.again {
+                Finished::Rendered
+            } else {
+                Finished::Skipped
+            },
+        })
+    }
+
+    /// Says why the output cannot take the frames of a sequence.
+    fn no_pattern(&self, reason: NoPattern) -> String {
+        let (scene, output) = (self.scene.display(), self.output.display());
+        if self.output.as_os_str() == "-" {
+            "-o - takes a sequence with --format y4m or gif".to_owned()
+        } else if self.scene.is_dir() {
+            format!("{scene} is a folder, which makes a sequence, but {output} {reason}")
+        } else {
+            format!("{output} {reason}")
+        }
     }
 
     fn frame_source(&self) -> FrameSource {

@@ -128,9 +128,8 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::{Means, ProgressStyle};
     use geometry::{Mesh, Shape};
-    use scene::{Rendering, Viewpoint};
+    use scene::Rendering;
 
     const SCENE: &str = "\
 <xml><scene><object type=\"obj\" name=\"a.obj\"/><object type=\"sphere\" name=\"ball\"/>
@@ -147,22 +146,11 @@ keys = [{ frame = 0, value = [0, 0, 0] }, { frame = 2, value = [1, 1, 1] }]";
 
     fn tracing() -> Tracing {
         Tracing {
-            size: None,
-            view: Viewpoint::default(),
-            region: None,
             rendering: Rendering {
                 spp: Some(1),
                 ..Rendering::default()
             },
-            time: None,
-            seed: None,
-            aov: None,
-            layers: Vec::new(),
-            denoise: false,
-            means: Means {
-                threads: 1,
-                progress: ProgressStyle::Off,
-            },
+            ..Tracing::of_scene()
         }
     }
 

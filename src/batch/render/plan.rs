@@ -1,5 +1,5 @@
-//! Plans a picture, a sequence, and each frame of one. All that is refused before tracing is refused in
-//! the order of these checks: outputs, scenes, settings, memory, and what is there already.
+//! Plans a picture, a sequence, and each frame of one: reads what it takes, and refuses what can be refused
+//! before tracing, in the order in which users see it.
 
 use std::path::PathBuf;
 
@@ -78,7 +78,7 @@ pub(super) fn picture(
             let picture = still.provenance(fingerprint(source.text(), &read.found)?);
             Way::Part {
                 source: short(source),
-                part: part.open(picture, means)?,
+                part: Box::new(part.open(picture, means)?),
             }
         }
     };
@@ -170,7 +170,7 @@ pub(super) fn sequence(
             }))
         }
         SequenceOutput::Movie { to, format, rate } => {
-            let rate = rate.or(sequence.rate()).unwrap_or(DEFAULT_RATE);
+            let rate = rate.or_else(|| sequence.rate()).unwrap_or(DEFAULT_RATE);
             if let Some(reason) = format.refuses(rate) {
                 return Err(Error::Refused(reason));
             }
