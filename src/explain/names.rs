@@ -199,3 +199,31 @@ fn settled(of: &[f64]) -> Vec<String> {
     let settled = |of: f64| if of.abs() < 1e-12 * largest { 0.0 } else { of };
     of.iter().map(|&of| number(settled(of))).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_errors_are_no_digits() {
+        assert_eq!(numbers(&[1.0, 1e-17, -0.25]), "1 0 -0.25");
+        assert_eq!(numbers(&[1e-17]), "1e-17");
+    }
+
+    #[test]
+    fn numbers_have_four_digits() {
+        for (value, expected) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (1.0, "1"),
+            (0.123_456, "0.1235"),
+            (-1234.56, "-1235"),
+            (1e-9, "1e-9"),
+            (3.0e8, "3e8"),
+            (f64::INFINITY, "∞"),
+            (f64::NAN, "undefined"),
+        ] {
+            assert_eq!(number(value), expected);
+        }
+    }
+}

@@ -480,26 +480,3 @@ fn lines_name_what_a_ray_meets_and_where_that_stands() {
     let [from, to] = light.segment.expect("the way of its light");
     assert!((from.z - 1.0).abs() < 0.01 && (to - DVec3::new(0.0, 10.0, 3.0)).length() < 1e-9);
 }
-
-#[test]
-fn rounding_errors_are_no_digits() {
-    assert_eq!(numbers(&[1.0, 1e-17, -0.25]), "1 0 -0.25");
-    assert_eq!(numbers(&[1e-17]), "1e-17");
-}
-
-#[test]
-fn numbers_have_four_digits() {
-    for (value, expected) in [
-        (0.0, "0"),
-        (-0.0, "0"),
-        (1.0, "1"),
-        (0.123_456, "0.1235"),
-        (-1234.56, "-1235"),
-        (1e-9, "1e-9"),
-        (3.0e8, "3e8"),
-        (f64::INFINITY, "∞"),
-        (f64::NAN, "undefined"),
-    ] {
-        assert_eq!(number(value), expected);
-    }
-}
