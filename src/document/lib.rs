@@ -83,13 +83,13 @@ impl Document {
         &self.source
     }
 
-    /// Lowers the text, see [`Answers::lower`](language::Answers::lower).
+    /// Lowers the text, see [`SceneText::lower`](language::SceneText::lower).
     pub fn lower(&mut self, meshes: &Meshes) -> Result<Lowered, OutOfMemory> {
         self.source.lower(meshes)
     }
 
     /// Lowers the text after an edit, see
-    /// [`Answers::lower_again`](language::Answers::lower_again).
+    /// [`SceneText::lower_again`](language::SceneText::lower_again).
     pub fn lower_again(
         &mut self,
         meshes: &Meshes,

@@ -93,7 +93,7 @@ impl<'s> Names<'s> {
     pub(super) fn field(&self, node: Node, keys: &[&str]) -> Option<Place> {
         let fields = self.subject.source.fields(node);
         let found = keys.iter().find_map(|key| {
-            let is = |placed: &&language::Placed| placed.field.key == *key;
+            let is = |placed: &&language::FieldSpans| placed.field.key == *key;
             let placed = fields.iter().find(is)?;
             let span = placed.spans.first()?;
             Some(self.place_of(*span, Some(placed.field.key)))

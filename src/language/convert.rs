@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use super::losses::{Loss, Losses, Of};
-use super::{Language, Source, alike, fits};
+use super::{Language, Source, fits, verify_conversion};
 use memory::OutOfMemory;
 use scene::{Emitter, Meshes, Object, Rgb, Scene};
 use text::{Diagnostic, Findings, Span};
@@ -44,7 +44,7 @@ pub fn convert(source: &Source, scene: &Scene, to: Language) -> Result<Converted
     let mut written = Source::new(to, text);
     let lowered = written.lower(&Meshes::default())?;
     if let Some(other) = &lowered.scene {
-        alike::report(scene, other, &mut losses);
+        verify_conversion::report(scene, other, &mut losses);
     }
     let mut findings = losses.into_findings();
     if let Some(error) = lowered.diagnostics.first_error() {

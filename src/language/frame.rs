@@ -1,8 +1,8 @@
 //! Frames of directions that are made orthonormal.
 
 use super::StructureError;
-use super::at::At;
 use super::form::{orthonormal, rounded};
+use super::slot::At;
 
 /// The error for a node without directions.
 pub(super) fn frameless(name: &str) -> StructureError {

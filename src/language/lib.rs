@@ -2,38 +2,38 @@
 //!
 //! A language parses text into a tree, lowers the tree to a [`Scene`], knows the place of each
 //! field in the text, and makes edits that change a field there. [`Source`] holds the text, tree
-//! and places of one scene together. The rest of the program uses it through [`Answers`] and never
+//! and places of one scene together. The rest of the program uses it through [`SceneText`] and never
 //! learns which language it is.
 
-mod alike;
-mod at;
+mod approximations;
 mod camera;
 pub mod coefficients;
 mod convert;
 mod dat;
-mod first;
+mod field_spans;
 mod form;
 mod frame;
 mod listed;
 mod losses;
+mod memory_estimate;
 mod node;
-mod outlook;
 mod partition;
-mod placed;
+mod picture_lint;
 mod ray;
 mod record;
 mod rendering;
 mod report;
 mod roles;
-mod room;
 mod saved;
+mod slot;
 mod spelling;
-mod stand_ins;
+mod starter;
 mod structure;
 mod surroundings;
 pub mod table;
 #[cfg(test)]
 mod tests;
+mod verify_conversion;
 mod view;
 mod whitted;
 mod words;
@@ -50,21 +50,23 @@ use std::sync::Arc;
 
 use losses::Losses;
 use memory::OutOfMemory;
-use room::Counts;
+use memory_estimate::Counts;
 use scene::{Camera, Meshes, Scene};
 use table::{Category, Field};
 use text::{Diagnostic, Edit, Findings, Span, alternatives};
 use view::Numbers;
 
 pub use convert::{Converted, convert};
+pub use field_spans::{FieldSpans, Wanted};
 pub use form::{Along, Motion};
+pub use memory_estimate::fits;
 pub use node::{FileKind, NamedFile, Node, Nodes};
-pub use outlook::{Outlook, Prospect, outlook};
-pub use placed::{Placed, Wanted};
+pub use picture_lint::{Outlook, Prospect, outlook};
 pub use roles::{Role, Roles};
-pub use room::fits;
 pub use saved::{SavedView, view_name};
-pub use structure::{Addition, Neighbour, Placement, Pose, Restructure, StructureError, Wish};
+pub use structure::{
+    Addition, Neighbour, NewNode, Placement, Pose, StructureEdits, StructureError,
+};
 
 /// Declares the languages, one per line, by folder name, which is also the file extension. A folder
 /// provides `Source`, `errors_of_beginning`, `tree_bytes`, `write`, `LEAVES_KEEP_TO_LINES`,
@@ -109,7 +111,7 @@ macro_rules! languages {
                 }
             }
 
-            /// Whether [`Answers::lower_change`] may succeed.
+            /// Whether [`SceneText::lower_change`] may succeed.
             pub const fn lowers_changes(self) -> bool {
                 match self {
                     $(Self::$name => $folder::LOWERS_CHANGES,)+
@@ -165,7 +167,7 @@ macro_rules! languages {
         }
 
         impl Deref for Source {
-            type Target = dyn Answers;
+            type Target = dyn SceneText;
 
             fn deref(&self) -> &Self::Target {
                 match self {
@@ -306,7 +308,7 @@ pub trait Editable: Debug {
 
 /// What every language answers about a scene's text. Places are as of the last lowering, and
 /// complete up to where the text could be understood.
-pub trait Answers: Editable + Restructure {
+pub trait SceneText: Editable + StructureEdits {
     /// Lowers the text, with the meshes read so far, and finds the places of its nodes. Reports all
     /// independent errors at once. Never panics, never loops, never allocates by a number that the
     /// text merely declares, and takes time linear in the text.
@@ -316,7 +318,7 @@ pub trait Answers: Editable + Restructure {
     /// Fails if the scene does not fit into memory; then no node has a place.
     fn lower(&mut self, meshes: &Meshes) -> Result<Lowered, OutOfMemory>;
 
-    /// As [`Answers::lower`] after the text was changed once, without reading the objects again that
+    /// As [`SceneText::lower`] after the text was changed once, without reading the objects again that
     /// are as before; `None`, without any effect, if that is not possible. `before` is the result that
     /// belongs to the current places.
     fn lower_change(&mut self, before: Before<'_>) -> Option<Lowered> {
@@ -324,11 +326,11 @@ pub trait Answers: Editable + Restructure {
         None
     }
 
-    /// As [`Answers::lower`] after an edit, but faster where [`Answers::lower_change`] is possible.
+    /// As [`SceneText::lower`] after an edit, but faster where [`SceneText::lower_change`] is possible.
     ///
     /// # Errors
     ///
-    /// As [`Answers::lower`].
+    /// As [`SceneText::lower`].
     fn lower_again(&mut self, meshes: &Meshes, before: Before<'_>) -> Result<Lowered, OutOfMemory> {
         match self.lower_change(before) {
             Some(lowered) => Ok(lowered),
@@ -347,7 +349,7 @@ pub trait Answers: Editable + Restructure {
 
     /// Returns the edits that set these components of fields.
     fn edits(&self, wanted: &[Wanted<'_>]) -> Vec<Edit> {
-        let mut edits = placed::edits(self, wanted);
+        let mut edits = field_spans::edits(self, wanted);
         edits.extend(rendering::insertions(self.text(), wanted));
         Edit::sort(&mut edits);
         edits
@@ -374,7 +376,7 @@ pub trait Answers: Editable + Restructure {
 
     /// A node's fields with their places. If a node's text breaks off, only fields with all
     /// components are included.
-    fn fields(&self, node: Node) -> Vec<Placed>;
+    fn fields(&self, node: Node) -> Vec<FieldSpans>;
 
     /// A node's whole text, from its first token to its last; empty for a missing view. For a node
     /// in several places, the first.
@@ -457,7 +459,7 @@ pub trait Answers: Editable + Restructure {
     /// is left; none if the text does not state it.
     fn render_removal(&self, key: &str) -> Vec<Edit>;
 
-    /// The fields of the view that belong to the camera, the first of [`Answers::fields`].
+    /// The fields of the view that belong to the camera, the first of [`SceneText::fields`].
     fn view_fields(&self) -> Vec<&'static Field>;
 
     /// The values of these fields that describe a camera.

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use rayon::prelude::*;
 
-use super::{Answers, Node, Source};
+use super::{Node, SceneText, Source};
 
 impl Source {
     /// The rows of the nodes whose name or comment contains `words`, in lower case, ascending;
@@ -37,7 +37,7 @@ impl Source {
 }
 
 /// The objects outside folded ones, ascending, in a text where each object follows its group.
-pub(super) fn unfolded(source: &(impl Answers + ?Sized), folded: &BTreeSet<usize>) -> Vec<usize> {
+pub(super) fn unfolded(source: &(impl SceneText + ?Sized), folded: &BTreeSet<usize>) -> Vec<usize> {
     let count = source.nodes().objects;
     let mut is_hidden = vec![false; count];
     for object in 0..count {

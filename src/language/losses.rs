@@ -172,7 +172,7 @@ impl<'a> Losses<'a> {
 fn place(source: &Source, node: Node, keys: &[&str]) -> Span {
     let fields = source.fields(node);
     let field = keys.iter().find_map(|key| {
-        let stated = |placed: &&super::Placed| placed.field.key == *key && placed.is_explicit();
+        let stated = |placed: &&super::FieldSpans| placed.field.key == *key && placed.is_explicit();
         let placed = fields.iter().find(stated)?;
         let whole = |at: &usize| placed.default_of(*at).is_none();
         let spans = (0..placed.spans.len()).filter(whole);

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::LazyLock;
 
-use super::placed::{Implicit, ImplicitAttribute, Insertion, Piece, Placed, Wanted};
+use super::field_spans::{FieldSpans, Implicit, ImplicitAttribute, Insertion, Piece, Wanted};
 use super::report::{did_you_mean, no_number, number, quoted};
 use super::table::{Field, Kind, Range};
 use super::view::line_from;
@@ -291,16 +291,16 @@ pub(super) fn fields(
     defaults: &Rendering,
     insertion: &Insertion,
     element: Option<&'static str>,
-) -> Vec<Placed> {
+) -> Vec<FieldSpans> {
     let stated = place.map_or_else(Default::default, |place| place.parts);
     let own = place.map(|place| place.rendering).unwrap_or_default();
     let effective = own.or(*defaults);
     let placed = |((key, field), part): (&'static (RenderKey, Field), Option<Part>)| {
         if let Some(part) = part {
-            return Placed::explicit(field, vec![part.value]);
+            return FieldSpans::explicit(field, vec![part.value]);
         }
         let default = Cow::from(key.value(&effective));
-        Placed {
+        FieldSpans {
             field,
             spans: vec![Span::at(insertion.span.start())],
             implicit: Some(Box::new(Implicit {
@@ -345,7 +345,7 @@ pub(super) fn insertion(
 
 /// Returns the edits that insert these values into a comment where the text omits them.
 pub(super) fn insertions(text: &str, wanted: &[Wanted<'_>]) -> Vec<Edit> {
-    super::placed::insertions(text, wanted, |implicit, values| {
+    super::field_spans::insertions(text, wanted, |implicit, values| {
         let names = implicit.attributes.iter().map(|attribute| attribute.name);
         let words = names
             .zip(values)

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use glam::DVec3;
 
-use super::Answers;
+use super::SceneText;
 use super::view::{line_ending, line_from, spelled};
 use super::words::Words;
 use scene::{Camera, Lens};
@@ -63,7 +63,7 @@ pub fn view_name(typed: &str) -> Result<String, &'static str> {
 }
 
 /// The saved views of a text, in its order; of several with one name, the first.
-pub(super) fn views<Source: Answers + ?Sized>(source: &Source) -> Vec<SavedView> {
+pub(super) fn views<Source: SceneText + ?Sized>(source: &Source) -> Vec<SavedView> {
     let text = source.text();
     let mut found: Vec<SavedView> = Vec::new();
     // Most texts have none, and this is faster than looking for their comments.
@@ -82,7 +82,7 @@ pub(super) fn views<Source: Answers + ?Sized>(source: &Source) -> Vec<SavedView>
 
 /// The edits that save a camera under a name, replacing any view of that name, or that delete the
 /// view.
-pub(super) fn edits<Source: Answers + ?Sized>(
+pub(super) fn edits<Source: SceneText + ?Sized>(
     source: &Source,
     name: &str,
     camera: Option<&Camera>,

@@ -12,7 +12,7 @@ use text::{Edit, Span, line_end, next_line, parse_number, rounded, spell_like, w
 
 /// How a language changes the structure of a text, which must be free of errors. Counts, lists, IDs
 /// and names in the text follow.
-pub trait Restructure {
+pub trait StructureEdits {
     /// What deleting these nodes does to others, as a sentence; `None` if it does nothing.
     fn consequence(&self, nodes: &[Node]) -> Option<String>;
 
@@ -25,7 +25,7 @@ pub trait Restructure {
     fn removal(&self, nodes: &[Node]) -> Result<Vec<Edit>, StructureError>;
 
     /// The text of nodes, with the comments on them, in text order: what
-    /// [`Restructure::insertion`] takes.
+    /// [`StructureEdits::insertion`] takes.
     ///
     /// # Errors
     ///
@@ -84,13 +84,13 @@ pub trait Restructure {
     /// The kinds of things that can be added.
     fn additions(&self) -> &'static [Addition];
 
-    /// Returns the edits that add a thing of a kind, by its name in [`Restructure::additions`],
+    /// Returns the edits that add a thing of a kind, by its name in [`StructureEdits::additions`],
     /// spelled like its neighbours.
     ///
     /// # Errors
     ///
     /// Fails if the text lacks what the thing would refer to.
-    fn addition(&self, name: &str, wish: &Wish<'_>) -> Result<Placement, StructureError>;
+    fn addition(&self, name: &str, wish: &NewNode<'_>) -> Result<Placement, StructureError>;
 
     /// Returns the edits that add a plain node of a category with this name or ID, where a field of
     /// `user` can refer to it.
@@ -112,7 +112,7 @@ pub trait Restructure {
     /// choice.
     fn kinds(&self, node: Node) -> Vec<&'static str>;
 
-    /// Returns the edits that change a node to another of its [kinds](Restructure::kinds) and keep
+    /// Returns the edits that change a node to another of its [kinds](StructureEdits::kinds) and keep
     /// what both share: place, directions, sizes and material.
     ///
     /// # Errors
@@ -182,7 +182,7 @@ impl Addition {
         Self { name, words, shape }
     }
 
-    /// Whether it needs [`Wish::file`].
+    /// Whether it needs [`NewNode::file`].
     pub fn needs_file(&self) -> bool {
         self.shape == Shape::File
     }
@@ -190,7 +190,7 @@ impl Addition {
 
 /// Where to add a thing, and how large.
 #[derive(Clone, Copy, Debug)]
-pub struct Wish<'a> {
+pub struct NewNode<'a> {
     /// Its centre.
     pub centre: DVec3,
     /// Half its extent, above 0.
@@ -456,7 +456,7 @@ impl Pose {
     }
 }
 
-impl Wish<'_> {
+impl NewNode<'_> {
     /// A number as the wish's text shows it: rounded to its decimals.
     pub(super) fn literal(&self, number: f64) -> String {
         rounded(number, self.decimals).to_string()

@@ -4,7 +4,7 @@ mod beginning;
 mod convert;
 mod line_ends;
 mod motion;
-mod outlook;
+mod picture_lint;
 mod rendering;
 mod saved;
 mod structure;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use super::convert::without_gamma;
 use super::losses::Losses;
-use super::{Language, Lowered, Source, alike};
+use super::{Language, Lowered, Source, verify_conversion};
 use scene::{Meshes, Scene};
 use text::{Diagnostic, Findings, Position, Span};
 
@@ -49,7 +49,7 @@ pub(super) fn rewritten(source: &Source, scene: &Scene) -> (String, Scene, Findi
     let (_, lowered) = read_as(language, &text, &Meshes::default());
     let said = shown(&text, &lowered);
     let again = lowered.scene.unwrap_or_else(|| panic!("{text}\n{said:#?}"));
-    alike::report(scene, &again, &mut losses);
+    verify_conversion::report(scene, &again, &mut losses);
     (text, again, losses.into_findings())
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::field::{self, Place};
 use super::{CameraTrack, FieldTrack, Keys, Parameter, Track, Value, thing};
 use language::table::Range;
-use language::{Node, Placed, Source};
+use language::{FieldSpans, Node, Source};
 use scene::{Camera, Lens};
 use text::{Diagnostic, Edit, Findings, spell_like};
 
@@ -191,7 +191,7 @@ impl Bound {
 
     fn field_edits(&self, source: &Source, frame: u32) -> Vec<Edit> {
         let mut wanted: BTreeMap<(Node, usize), Vec<(usize, String)>> = BTreeMap::new();
-        let mut fields: BTreeMap<Node, Vec<Placed>> = BTreeMap::new();
+        let mut fields: BTreeMap<Node, Vec<FieldSpans>> = BTreeMap::new();
         for bound in &self.fields {
             let own = fields
                 .entry(bound.node)
@@ -212,7 +212,7 @@ impl Bound {
 /// The literals of the components that a track sets at a frame.
 fn literals(
     source: &Source,
-    placed: &Placed,
+    placed: &FieldSpans,
     bound: &BoundField,
     frame: u32,
 ) -> Vec<(usize, String)> {
@@ -231,7 +231,7 @@ fn literals(
 }
 
 /// A number in the style of what it replaces.
-fn spelled(source: &Source, placed: &Placed, component: usize, number: f64) -> String {
+fn spelled(source: &Source, placed: &FieldSpans, component: usize, number: f64) -> String {
     let whole = matches!(
         placed.field.allowed,
         Range::Count | Range::Whole(..) | Range::Identity

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{Key, Keys, Named, Value};
 use language::table::{Field, Kind, Range};
-use language::{Node, Placed, Source};
+use language::{FieldSpans, Node, Source};
 use text::{Diagnostic, Findings, alternatives, counted, nearest_word};
 
 /// A field of a thing, or one component of it.
@@ -28,7 +28,11 @@ impl Place {
 }
 
 /// Finds a field of a thing: `position`, `position y`, or `rotate 2` of several with one name.
-pub(super) fn find(thing: &str, fields: &[Placed], wanted: &Named) -> Result<Place, Diagnostic> {
+pub(super) fn find(
+    thing: &str,
+    fields: &[FieldSpans],
+    wanted: &Named,
+) -> Result<Place, Diagnostic> {
     let counts = counts(fields);
     let names = names(fields);
     let found = names.iter().find(|(name, ..)| *name == wanted.name);
@@ -54,7 +58,7 @@ pub(super) fn find(thing: &str, fields: &[Placed], wanted: &Named) -> Result<Pla
 }
 
 /// The number of fields with each name.
-fn counts(fields: &[Placed]) -> BTreeMap<&str, usize> {
+fn counts(fields: &[FieldSpans]) -> BTreeMap<&str, usize> {
     let mut counts = BTreeMap::new();
     for placed in fields {
         *counts.entry(placed.field.key).or_default() += 1;
@@ -63,7 +67,7 @@ fn counts(fields: &[Placed]) -> BTreeMap<&str, usize> {
 }
 
 /// The names of all fields and components, with their places.
-fn names(fields: &[Placed]) -> Vec<(String, usize, Option<usize>)> {
+fn names(fields: &[FieldSpans]) -> Vec<(String, usize, Option<usize>)> {
     let counts = counts(fields);
     let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
     let mut names = Vec::new();
@@ -85,7 +89,7 @@ fn names(fields: &[Placed]) -> Vec<(String, usize, Option<usize>)> {
 }
 
 /// The name of a field, or of one of its components.
-pub(super) fn name_of(fields: &[Placed], field: usize, component: Option<usize>) -> String {
+pub(super) fn name_of(fields: &[FieldSpans], field: usize, component: Option<usize>) -> String {
     let mut names = names(fields).into_iter();
     let named = names.find(|(_, at, own)| (*at, *own) == (field, component));
     named.map_or_else(String::new, |(name, ..)| name)
@@ -95,7 +99,7 @@ pub(super) fn name_of(fields: &[Placed], field: usize, component: Option<usize>)
 pub(super) fn check(
     source: &Source,
     node: Node,
-    (placed, component): (&Placed, Option<usize>),
+    (placed, component): (&FieldSpans, Option<usize>),
     keys: &Keys,
     findings: &mut Findings,
 ) {

@@ -6,7 +6,7 @@ use toml::de::{DeTable, DeValue};
 use super::camera::Parameter;
 use super::written::{Unkeyed, Written, appended, entry};
 use super::{Bound, CameraTrack, Easing, Movement, Track, field, thing};
-use language::{Node, Placed, Source};
+use language::{FieldSpans, Node, Source};
 use scene::Camera;
 use text::{Edit, parse_number};
 
@@ -164,7 +164,7 @@ fn camera_values(
 /// The value of a field, or of one component of it, as TOML; of the first `count` numbers if given.
 fn value_of(
     source: &Source,
-    placed: &Placed,
+    placed: &FieldSpans,
     component: Option<usize>,
     count: Option<usize>,
 ) -> String {

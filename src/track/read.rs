@@ -3,7 +3,7 @@
 use toml::de::{DeTable, DeValue};
 
 use super::camera::{Movement, Parameter};
-use super::table::{Placed, Table, elements, integer, number, span_of, string, wrong};
+use super::table::{FieldSpans, Table, elements, integer, number, span_of, string, wrong};
 use super::{CameraTrack, Easing, FieldTrack, Key, Keys, Track, Value};
 use text::{Diagnostic, Findings, Span, alternatives, counted, nearest_word};
 
@@ -98,14 +98,14 @@ impl Reader {
         noted(outcome, &mut self.findings)
     }
 
-    fn fields(&mut self, value: Placed<'_, '_>) -> Vec<FieldTrack> {
+    fn fields(&mut self, value: FieldSpans<'_, '_>) -> Vec<FieldTrack> {
         let tables = elements(value, "[[track]], a table for each field");
         let tables = self.noted(tables).unwrap_or_default();
         let fields = tables.into_iter().map(|table| self.field(table));
         fields.collect::<Vec<_>>().into_iter().flatten().collect()
     }
 
-    fn field(&mut self, value: Placed<'_, '_>) -> Option<FieldTrack> {
+    fn field(&mut self, value: FieldSpans<'_, '_>) -> Option<FieldTrack> {
         const THING: &str = "a name as in the list of the interface, such as thing = \"light 1\"";
         const FIELD: &str = "the name of a field, such as field = \"position\"";
         let table = Table::of(value, "[[track]], a table for each field");
@@ -132,7 +132,7 @@ impl Reader {
 
     fn camera(
         &mut self,
-        value: Placed<'_, '_>,
+        value: FieldSpans<'_, '_>,
         expected: &str,
         movement: Movement,
     ) -> Option<CameraTrack> {
@@ -254,7 +254,7 @@ impl Reader {
 }
 
 /// A number, several, or a word.
-fn any(value: Placed<'_, '_>) -> Result<Value, Diagnostic> {
+fn any(value: FieldSpans<'_, '_>) -> Result<Value, Diagnostic> {
     const EXPECTED: &str = "a number, an array of numbers, or a string";
     match value.get_ref() {
         DeValue::String(word) => Ok(Value::Word(word.clone().into_owned())),
@@ -267,7 +267,7 @@ fn any(value: Placed<'_, '_>) -> Result<Value, Diagnostic> {
 }
 
 /// The error for what is not a finite number.
-fn no_number(value: Placed<'_, '_>, expected: &str) -> Diagnostic {
+fn no_number(value: FieldSpans<'_, '_>, expected: &str) -> Diagnostic {
     let is_infinite = matches!(value.get_ref(), DeValue::Float(_) | DeValue::Integer(_));
     let number = if is_infinite {
         "a finite number"
@@ -277,14 +277,17 @@ fn no_number(value: Placed<'_, '_>, expected: &str) -> Diagnostic {
     wrong(value, number, expected)
 }
 
-fn numbers(value: Placed<'_, '_>, expected: &str) -> Result<Vec<f64>, Diagnostic> {
+fn numbers(value: FieldSpans<'_, '_>, expected: &str) -> Result<Vec<f64>, Diagnostic> {
     let elements = elements(value, expected)?;
     let number = |value| number(value).ok_or_else(|| no_number(value, expected));
     elements.into_iter().map(number).collect()
 }
 
 /// The numbers of a parameter of the camera.
-fn parameter_value(parameter: Parameter, value: Placed<'_, '_>) -> Result<Vec<f64>, Diagnostic> {
+fn parameter_value(
+    parameter: Parameter,
+    value: FieldSpans<'_, '_>,
+) -> Result<Vec<f64>, Diagnostic> {
     let expected = parameter.expected();
     let numbers = match parameter.components() {
         1 => number(value).map(|number| vec![number]),

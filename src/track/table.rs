@@ -9,12 +9,12 @@ use super::Named;
 use text::{Diagnostic, Findings, Span, alternatives, nearest_word, parse_number};
 
 /// A value and its place.
-pub(super) type Placed<'a, 'i> = &'a Spanned<DeValue<'i>>;
+pub(super) type FieldSpans<'a, 'i> = &'a Spanned<DeValue<'i>>;
 
 /// A table of which entries are taken one by one.
 pub(super) struct Table<'a, 'i> {
     /// The entries not taken yet, in the order of the text.
-    entries: Vec<(&'a Spanned<Cow<'i, str>>, Placed<'a, 'i>)>,
+    entries: Vec<(&'a Spanned<Cow<'i, str>>, FieldSpans<'a, 'i>)>,
     /// The names that were asked for.
     known: Vec<&'static str>,
     span: Span,
@@ -32,7 +32,7 @@ impl<'a, 'i> Table<'a, 'i> {
     }
 
     /// The table that a value is.
-    pub(super) fn of(value: Placed<'a, 'i>, expected: &str) -> Result<Self, Diagnostic> {
+    pub(super) fn of(value: FieldSpans<'a, 'i>, expected: &str) -> Result<Self, Diagnostic> {
         match value.get_ref() {
             DeValue::Table(table) => Ok(Self::new(table, span_of(value))),
             _ => Err(wrong(value, "a table", expected)),
@@ -45,7 +45,7 @@ impl<'a, 'i> Table<'a, 'i> {
     }
 
     /// Takes an entry, which need not be there.
-    pub(super) fn take(&mut self, name: &'static str) -> Option<Placed<'a, 'i>> {
+    pub(super) fn take(&mut self, name: &'static str) -> Option<FieldSpans<'a, 'i>> {
         self.known.push(name);
         let at = self
             .entries
@@ -59,7 +59,7 @@ impl<'a, 'i> Table<'a, 'i> {
         &mut self,
         name: &'static str,
         expected: &str,
-    ) -> Result<Placed<'a, 'i>, Diagnostic> {
+    ) -> Result<FieldSpans<'a, 'i>, Diagnostic> {
         let missing = || Diagnostic::error(self.span, format!("`{name}` is missing"), expected);
         let missing = missing();
         self.take(name).ok_or(missing)
@@ -92,9 +92,9 @@ pub(super) fn span_of<T>(spanned: &Spanned<T>) -> Span {
 
 /// The elements that a value is an array of.
 pub(super) fn elements<'a, 'i>(
-    value: Placed<'a, 'i>,
+    value: FieldSpans<'a, 'i>,
     expected: &str,
-) -> Result<Vec<Placed<'a, 'i>>, Diagnostic> {
+) -> Result<Vec<FieldSpans<'a, 'i>>, Diagnostic> {
     match value.get_ref() {
         DeValue::Array(array) => Ok(array.iter().collect()),
         _ => Err(wrong(value, "an array", expected)),
@@ -102,7 +102,7 @@ pub(super) fn elements<'a, 'i>(
 }
 
 /// The string that a value is.
-pub(super) fn string(value: Placed<'_, '_>, expected: &str) -> Result<Named, Diagnostic> {
+pub(super) fn string(value: FieldSpans<'_, '_>, expected: &str) -> Result<Named, Diagnostic> {
     match value.get_ref() {
         DeValue::String(text) => Ok(Named {
             name: text.clone().into_owned(),
@@ -113,7 +113,10 @@ pub(super) fn string(value: Placed<'_, '_>, expected: &str) -> Result<Named, Dia
 }
 
 /// The integer that a value is, within limits.
-pub(super) fn integer(value: Placed<'_, '_>, [least, most]: [u32; 2]) -> Result<u32, Diagnostic> {
+pub(super) fn integer(
+    value: FieldSpans<'_, '_>,
+    [least, most]: [u32; 2],
+) -> Result<u32, Diagnostic> {
     let number = match value.get_ref() {
         DeValue::Integer(digits) => u32::from_str_radix(digits.as_str(), digits.radix()).ok(),
         _ => None,
@@ -126,7 +129,7 @@ pub(super) fn integer(value: Placed<'_, '_>, [least, most]: [u32; 2]) -> Result<
 }
 
 /// The finite number that a value is.
-pub(super) fn number(value: Placed<'_, '_>) -> Option<f64> {
+pub(super) fn number(value: FieldSpans<'_, '_>) -> Option<f64> {
     match value.get_ref() {
         DeValue::Float(digits) => parse_number(digits.as_str()).ok(),
         DeValue::Integer(digits) if digits.radix() == 10 => parse_number(digits.as_str()).ok(),
@@ -139,6 +142,6 @@ pub(super) fn number(value: Placed<'_, '_>) -> Option<f64> {
 }
 
 /// The error for a value that is something else.
-pub(super) fn wrong(value: Placed<'_, '_>, is_not: &str, expected: &str) -> Diagnostic {
+pub(super) fn wrong(value: FieldSpans<'_, '_>, is_not: &str, expected: &str) -> Diagnostic {
     Diagnostic::error(span_of(value), format!("this is not {is_not}"), expected)
 }

@@ -7,7 +7,7 @@ use std::sync::{Arc, mpsc};
 
 use halflight::assets::{Assets, Wanted};
 use halflight::language::table::Kind;
-use halflight::language::{Language, Lowered, Node, Placed, Source};
+use halflight::language::{FieldSpans, Language, Lowered, Node, Source};
 use halflight::render::{Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::{Images, Meshes, Rendering, Scene};
 use halflight::text::apply;
@@ -126,7 +126,7 @@ fn the_courses_own_files_are_read_listed_and_edited() {
         assert_eq!(scene.objects.len(), objects - groups, "{name}");
         for node in nodes.iter() {
             // Another type has other fields.
-            let is_free = |placed: &Placed| !matches!(placed.field.kind, Kind::Choice(_));
+            let is_free = |placed: &FieldSpans| !matches!(placed.field.kind, Kind::Choice(_));
             for placed in source.fields(node).into_iter().filter(is_free) {
                 for component in 0..placed.spans.len() {
                     let edits = placed.edits(&*source, &[(component, "7".to_owned())]);

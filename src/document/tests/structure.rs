@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::*;
 use language::table::Kind;
-use language::{Neighbour, Node, Visibility, Wish};
+use language::{Neighbour, NewNode, Node, Visibility};
 use text::smallest_edit;
 
 /// A scene in which most numbers are the same as its counts.
@@ -102,7 +102,7 @@ fn change(source: &Source, random: &mut Random, side: &str) -> Option<Vec<Edit>>
         }
         6 => {
             let additions = source.additions();
-            let wish = Wish {
+            let wish = NewNode {
                 centre: DVec3::splat(random.below(9) as f64 + 0.25),
                 half: 0.5,
                 decimals: 2,

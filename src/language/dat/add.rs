@@ -7,10 +7,10 @@ use super::form::{form, put};
 use super::table::{ObjectKind, RecordKind, UseKind};
 use crate::form::Form;
 use crate::spelling::rounded_off;
-use crate::structure::{Wish, number};
+use crate::structure::{NewNode, number};
 use crate::table::Category;
 use crate::view::spelled;
-use crate::{Addition, Answers, Node, Placement, Restructure, StructureError};
+use crate::{Addition, Node, Placement, SceneText, StructureEdits, StructureError};
 use text::{Edit, Span};
 
 /// The kinds of things that can be added.
@@ -51,7 +51,7 @@ pub(super) const SOLIDS: [ObjectKind; 5] = [
 pub(super) fn addition(
     source: &Source,
     name: &str,
-    wish: &Wish<'_>,
+    wish: &NewNode<'_>,
 ) -> Result<Placement, StructureError> {
     let place = |point: DVec3| {
         let numbers = point.to_array().map(|number| wish.literal(number));
@@ -226,7 +226,7 @@ impl Source {
     }
 
     /// The records of a new solid, with a material if there is none.
-    fn solid(&self, kind: ObjectKind, wish: &Wish<'_>) -> Result<String, StructureError> {
+    fn solid(&self, kind: ObjectKind, wish: &NewNode<'_>) -> Result<String, StructureError> {
         let form = Form::upright(wish.centre, wish.half, DVec3::Z);
         // Coefficients cancel each other far from the origin; only what rounding added is left out.
         let precise = |number: f64| {
@@ -267,7 +267,11 @@ impl Source {
     }
 
     /// The edits that combine the two marked objects.
-    fn combination(&self, operation: &str, wish: &Wish<'_>) -> Result<Placement, StructureError> {
+    fn combination(
+        &self,
+        operation: &str,
+        wish: &NewNode<'_>,
+    ) -> Result<Placement, StructureError> {
         let objects = wish.marked.iter().filter_map(|&node| match node {
             Node::Object(index) => Some(self.origins.objects.get(index)?.id),
             _ => None,
@@ -282,7 +286,7 @@ impl Source {
     }
 
     /// The record of a texture, and its use by the selected material if that has none.
-    fn used(&self, texture: &str, wish: &Wish<'_>) -> String {
+    fn used(&self, texture: &str, wish: &NewNode<'_>) -> String {
         let Node::Material(index) = wish.after else {
             return texture.to_owned();
         };

@@ -9,7 +9,7 @@ use crate::form::{Along, Form, Motion, PRECISE, rotated, rounded};
 use crate::frame::{Lengths, frameless, straight};
 use crate::structure::{Pose, number, replacements};
 use crate::table::Kind;
-use crate::{Answers, Node, Placed, StructureError};
+use crate::{FieldSpans, Node, SceneText, StructureError};
 use geometry::{normalise, principal_axes};
 use text::{Edit, Span};
 
@@ -292,14 +292,14 @@ impl Source {
     }
 
     /// The kind of a light with these fields.
-    fn light_kind(&self, fields: &[Placed]) -> Option<LightKind> {
+    fn light_kind(&self, fields: &[FieldSpans]) -> Option<LightKind> {
         let word = fields.first()?.spans.first()?.of(&self.text);
         let kind = SOURCES.iter().find(|(known, _)| *known == word);
         kind.map(|(_, kind)| *kind)
     }
 
     /// The vector of a field.
-    fn vector(&self, fields: &[Placed], key: &str) -> Option<DVec3> {
+    fn vector(&self, fields: &[FieldSpans], key: &str) -> Option<DVec3> {
         let placed = fields.iter().find(|placed| placed.field.key == key)?;
         let spans: [Span; 3] = placed.spans.as_slice().try_into().ok()?;
         Some(DVec3::from_array(

@@ -1,14 +1,14 @@
 //! Boston University's `.dat`: one record per line, with numeric IDs.
 
 mod add;
-mod answers;
-mod apart;
+mod clashing_ids;
 mod copies;
 mod form;
 mod lower;
+mod memory_estimate;
 mod origins;
 mod roles;
-mod room;
+mod scene_text;
 mod structure;
 mod table;
 #[cfg(test)]
@@ -23,7 +23,7 @@ use origins::Origins;
 use text::Findings;
 use tree::Tree;
 
-pub(super) use room::tree_bytes;
+pub(super) use memory_estimate::tree_bytes;
 pub(super) use write::write;
 
 /// A `.dat` text.

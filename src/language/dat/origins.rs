@@ -3,8 +3,8 @@
 
 use super::table::{HALF_SPACE, ObjectKind, Part, RecordKind};
 use super::tree::Tree;
+use crate::field_spans::FieldSpans;
 use crate::node::Node;
-use crate::placed::Placed;
 use crate::rendering::{self, RenderPlace};
 use crate::view::{beginning, line_ending};
 use crate::words::Words;
@@ -106,7 +106,7 @@ impl Origins {
     }
 
     /// All fields of the view, without places if their record is missing.
-    pub(super) fn view_fields(&self, text: &str, tree: &Tree) -> Vec<Placed> {
+    pub(super) fn view_fields(&self, text: &str, tree: &Tree) -> Vec<FieldSpans> {
         self.view
             .iter()
             .zip(VIEW)
@@ -114,13 +114,13 @@ impl Origins {
                 Some(record) => place(tree.tokens_of(text, *record), kind, 0),
                 None => kind
                     .fields()
-                    .map(|field| Placed::explicit(field, Vec::new()))
+                    .map(|field| FieldSpans::explicit(field, Vec::new()))
                     .collect(),
             })
             .collect()
     }
 
-    pub(super) fn render_fields(&self, text: &str) -> Vec<Placed> {
+    pub(super) fn render_fields(&self, text: &str) -> Vec<FieldSpans> {
         let settings = self.settings.as_ref();
         let (start, ending) = (beginning(text), line_ending(text));
         let insertion = rendering::insertion(settings, start, "# render:", ending);
@@ -152,7 +152,7 @@ impl Origins {
 
 /// Distributes the tokens of a record to its fields, until one is incomplete. A quadric has `cuts`
 /// half-spaces.
-pub(super) fn place(tokens: Words<'_>, kind: RecordKind, cuts: usize) -> Vec<Placed> {
+pub(super) fn place(tokens: Words<'_>, kind: RecordKind, cuts: usize) -> Vec<FieldSpans> {
     let mut rest = tokens.skip(kind.heads());
     let mut placed = Vec::new();
     for part in kind.parts() {
@@ -161,14 +161,14 @@ pub(super) fn place(tokens: Words<'_>, kind: RecordKind, cuts: usize) -> Vec<Pla
             return placed;
         }
         if let Part::Field(field) = part {
-            placed.push(Placed::explicit(field, spans));
+            placed.push(FieldSpans::explicit(field, spans));
         }
     }
     if kind == RecordKind::Object(ObjectKind::Quadric) {
         // The half-spaces follow their count.
         let mut rest = rest.skip(1);
         let cuts = (0..cuts).map(|_| rest.by_ref().take(HALF_SPACE.kind.components()).collect());
-        placed.extend(cuts.map(|spans| Placed::explicit(HALF_SPACE, spans)));
+        placed.extend(cuts.map(|spans| FieldSpans::explicit(HALF_SPACE, spans)));
     }
     placed
 }

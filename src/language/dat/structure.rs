@@ -8,19 +8,19 @@ use super::origins::Place;
 use super::table::{ObjectKind, SOURCES};
 use super::tree::is_comment;
 use super::visibility::Listing;
-use super::{Source, add, apart, roles};
+use super::{Source, add, clashing_ids, roles};
 use crate::structure::{
     Block, adapted, deletions, follows, line_before, lines, lines_after, pair, uncreatable,
 };
 use crate::table::Category;
 use crate::view::line_ending;
 use crate::{
-    Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, Roles,
-    StructureError, Wish, structure,
+    Addition, Motion, Neighbour, NewNode, Node, Placement, Pose, Roles, SceneText, StructureEdits,
+    StructureError, structure,
 };
 use text::{Edit, Span, counted, parse_number};
 
-impl Restructure for Source {
+impl StructureEdits for Source {
     fn consequence(&self, nodes: &[Node]) -> Option<String> {
         let users = match self.dependents(nodes).as_slice() {
             [] => None,
@@ -132,11 +132,11 @@ impl Restructure for Source {
     }
 
     fn recount(&self) -> Vec<Edit> {
-        apart::recount(&self.text, &self.tree)
+        clashing_ids::recount(&self.text, &self.tree)
     }
 
     fn set_apart(&self, base: &str, theirs: &str) -> Vec<Edit> {
-        apart::set_apart(&self.text, &self.tree, base, theirs)
+        clashing_ids::set_apart(&self.text, &self.tree, base, theirs)
     }
 
     fn roles(&self, leaves: &[Span], _: [bool; 2]) -> Roles {
@@ -177,7 +177,7 @@ impl Restructure for Source {
         add::ADDITIONS
     }
 
-    fn addition(&self, name: &str, wish: &Wish<'_>) -> Result<Placement, StructureError> {
+    fn addition(&self, name: &str, wish: &NewNode<'_>) -> Result<Placement, StructureError> {
         add::addition(self, name, wish)
     }
 

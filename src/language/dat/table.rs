@@ -2,7 +2,7 @@
 
 mod parts;
 
-use crate::at::{At, is_same};
+use crate::slot::{At, is_same};
 use crate::table::Field;
 use parts::{
     BOX, CAMERA, CHECKER, CSG, CYLINDER, ELLIPSOID, IMAGE, LIGHT, MATERIAL, QUADRIC, RESOLUTION,

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::origins::{Origins, VIEW};
 use super::table::{PROJECTIONS, RecordKind};
 use super::tree::Tree;
-use crate::at::At;
+use crate::slot::At;
 use crate::spelling::rounded_off;
 use crate::table::{Field, Kind};
 use crate::view::{Numbers, beginning, line_ending, literal, take};

@@ -9,10 +9,10 @@ use std::fmt::Write;
 
 use glam::DVec3;
 
+use crate::approximations::solids;
 use crate::losses::{Losses, Of};
 use crate::rendering::words;
 use crate::spelling::{numbers, vector};
-use crate::stand_ins::solids;
 use crate::surroundings::{SIZE, report_plain};
 use crate::whitted::{Whitted, whitted};
 use geometry::direction_of;

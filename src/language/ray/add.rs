@@ -8,10 +8,10 @@ use super::table::{LIGHT, MATERIAL, ShapeKind};
 use super::tree::comment_of_line;
 use crate::form::Form;
 use crate::spelling::rounded_off;
-use crate::structure::Wish;
+use crate::structure::NewNode;
 use crate::table::{self, Field, Kind};
 use crate::view::{line_ending, line_from, spelled};
-use crate::{Addition, Answers, Node, Placement, Restructure, StructureError};
+use crate::{Addition, Node, Placement, SceneText, StructureEdits, StructureError};
 use text::{Edit, Span, next_line};
 
 /// The kinds of things that can be added: solids, by their keywords, and a light.
@@ -31,7 +31,7 @@ pub(super) const ADDITIONS: &[Addition] = &[
 pub(super) fn addition(
     source: &Source,
     name: &str,
-    wish: &Wish<'_>,
+    wish: &NewNode<'_>,
 ) -> Result<Placement, StructureError> {
     let text = if let Some(kind) = ShapeKind::of_word(name) {
         // A solid of revolution stands; the frame of another is the world's.
@@ -92,7 +92,7 @@ pub(super) fn retyping(
 }
 
 /// The literals of a new object.
-fn literals(kind: ShapeKind, numbers: &[f64], wish: &Wish<'_>) -> Vec<String> {
+fn literals(kind: ShapeKind, numbers: &[f64], wish: &NewNode<'_>) -> Vec<String> {
     let geometry = table::numbers(kind.geometry());
     let shape = numbers[..geometry]
         .iter()

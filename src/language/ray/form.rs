@@ -4,12 +4,12 @@ use glam::DVec3;
 
 use super::Source;
 use super::table::{LIGHT, MATERIAL, ShapeKind};
-use crate::at::At;
 use crate::form::{Form, Motion, PRECISE, rounded};
 use crate::frame::{Lengths, frameless, straight};
+use crate::slot::At;
 use crate::structure::{Pose, number, replacements};
 use crate::table::{Kind, numbers};
-use crate::{Answers, Node, StructureError};
+use crate::{Node, SceneText, StructureError};
 use geometry::normalise;
 use text::{Edit, Span};
 

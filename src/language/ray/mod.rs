@@ -2,16 +2,16 @@
 //! for the view.
 
 mod add;
-mod again;
-mod answers;
 mod blocks;
 mod form;
+mod incremental;
 mod lower;
+mod memory_estimate;
 mod objects;
 mod origins;
 mod reader;
 mod roles;
-mod room;
+mod scene_text;
 mod structure;
 mod table;
 #[cfg(test)]
@@ -26,7 +26,7 @@ use origins::Origins;
 use text::Findings;
 use tree::Tree;
 
-pub(super) use room::tree_bytes;
+pub(super) use memory_estimate::tree_bytes;
 pub(super) use write::write;
 
 /// A `.ray` text.

@@ -3,10 +3,10 @@
 use super::origins::ObjectPlace;
 use super::reader::{Count, LEAST_NUMBERS, Numbers, Reader, component, is_word};
 use super::table::{MATERIAL, ShapeKind};
-use crate::at::At;
 use crate::coefficients::Coefficients;
 use crate::record::Record;
 use crate::report::{Name, did_you_mean, quoted};
+use crate::slot::At;
 use crate::table;
 use geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, Sphere};
 use scene::blocks::BLOCK;

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use super::table::{LIGHT, ShapeKind, VIEW};
 use super::tree::Tree;
+use crate::field_spans::FieldSpans;
 use crate::node::Node;
-use crate::placed::Placed;
 use crate::rendering::{self, RenderPlace};
 use crate::table::{self, Field};
 use crate::view::{beginning, line_ending};
@@ -88,20 +88,20 @@ impl Origins {
         view.into_iter().chain(render)
     }
 
-    pub(super) fn render_fields(&self, text: &str) -> Vec<Placed> {
+    pub(super) fn render_fields(&self, text: &str) -> Vec<FieldSpans> {
         let render = self.render.as_ref();
         let (start, ending) = (beginning(text), line_ending(text));
         let insertion = rendering::insertion(render, start, "// render:", ending);
         rendering::fields(render, &Rendering::default(), &insertion, None)
     }
 
-    pub(super) fn view_fields(&self) -> Vec<Placed> {
+    pub(super) fn view_fields(&self) -> Vec<FieldSpans> {
         let parts = self.view.map_or([None; VIEW.len()], |view| view.parts);
         VIEW.iter()
             .zip(parts)
             .map(|(field, part)| {
                 let spans = part.map(|spans| spans[..field.kind.components()].to_vec());
-                Placed::explicit(field, spans.unwrap_or_default())
+                FieldSpans::explicit(field, spans.unwrap_or_default())
             })
             .collect()
     }
@@ -130,13 +130,13 @@ impl Origins {
 pub(super) fn distribute(
     tokens: &[Span],
     fields: impl Iterator<Item = &'static Field>,
-) -> Vec<Placed> {
+) -> Vec<FieldSpans> {
     let mut rest = tokens;
     fields
         .map_while(|field| {
             let (spans, after) = rest.split_at_checked(field.kind.components())?;
             rest = after;
-            Some(Placed::explicit(field, spans.to_vec()))
+            Some(FieldSpans::explicit(field, spans.to_vec()))
         })
         .collect()
 }

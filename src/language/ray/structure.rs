@@ -9,8 +9,8 @@ use crate::structure::{Block, adapted, deletions, follows, line_before, lines, l
 use crate::table;
 use crate::view::{line_ending, line_from};
 use crate::{
-    Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, Roles,
-    StructureError, Wish, structure,
+    Addition, Motion, Neighbour, NewNode, Node, Placement, Pose, Roles, SceneText, StructureEdits,
+    StructureError, structure,
 };
 use text::{Edit, Span, counted, line_end};
 
@@ -21,7 +21,7 @@ enum Counted {
     Objects,
 }
 
-impl Restructure for Source {
+impl StructureEdits for Source {
     fn consequence(&self, _: &[Node]) -> Option<String> {
         None
     }
@@ -178,7 +178,7 @@ impl Restructure for Source {
         add::ADDITIONS
     }
 
-    fn addition(&self, name: &str, wish: &Wish<'_>) -> Result<Placement, StructureError> {
+    fn addition(&self, name: &str, wish: &NewNode<'_>) -> Result<Placement, StructureError> {
         add::addition(self, name, wish)
     }
 

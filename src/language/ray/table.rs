@@ -1,6 +1,6 @@
 //! The table of fields of `.ray`.
 
-use crate::at::At;
+use crate::slot::At;
 use crate::table::{Field, Kind, Range, numbers};
 use text::nearest_word;
 

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::origins::Origins;
 use super::table::VIEW;
-use crate::at::At;
+use crate::slot::At;
 use crate::table::{self, Field};
 use crate::view::{Numbers, beginning, line_ending, literal, take};
 use scene::{Camera, Focus, Lens, Size};

@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use glam::DVec3;
 
+use crate::approximations::solids;
 use crate::coefficients::Coefficients;
 use crate::losses::{Loss, Losses, Of};
 use crate::rendering::words;
 use crate::spelling::{number, numbers, vector};
-use crate::stand_ins::solids;
 use crate::surroundings::{DISTANT, FADING, SHADOWLESS, SIZE, SPOT, angle, faded, report_plain};
 use crate::whitted::whitted;
 use geometry::{Affine, FrameNumbers, Solid};

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::read_as;
-use crate::{Along, Language, Motion, Node, Source, StructureError, Wish};
+use crate::{Along, Language, Motion, NewNode, Node, Source, StructureError};
 use geometry::Aabb;
 use scene::{Meshes, Scene};
 use text::Edit;
@@ -35,8 +35,8 @@ fn changed(language: Language, text: &str, edits: &[Edit]) -> (Source, Scene) {
     (source, scene)
 }
 
-fn wish(after: Node, marked: &[Node]) -> Wish<'_> {
-    Wish {
+fn wish(after: Node, marked: &[Node]) -> NewNode<'_> {
+    NewNode {
         centre: DVec3::new(0.25, 0.5, 1.0),
         half: 0.5,
         decimals: 2,

@@ -5,9 +5,9 @@ use glam::DVec3;
 use super::Source;
 use super::table::{LightKind, MaterialKind, ObjectKind};
 use super::tree::escaped;
-use crate::structure::Wish;
+use crate::structure::NewNode;
 use crate::view::line_ending;
-use crate::{Addition, Answers, Node, Placement, Restructure, StructureError};
+use crate::{Addition, Node, Placement, SceneText, StructureEdits, StructureError};
 use text::Edit;
 
 /// The kinds of things that can be added.
@@ -31,7 +31,7 @@ pub(super) const ADDITIONS: &[Addition] = &[
 pub(super) fn addition(
     source: &Source,
     name: &str,
-    wish: &Wish<'_>,
+    wish: &NewNode<'_>,
 ) -> Result<Placement, StructureError> {
     let vector = |name: &str, vector: DVec3| {
         let parts = ["x", "y", "z"].iter().zip(vector.to_array());
@@ -126,7 +126,7 @@ impl Source {
     fn object(
         &self,
         name: &str,
-        wish: &Wish<'_>,
+        wish: &NewNode<'_>,
         vector: &dyn Fn(&str, DVec3) -> String,
     ) -> Vec<String> {
         let beside = match wish.after {

@@ -1,12 +1,12 @@
 //! The insertion of fields that an `.xml` text omits.
 
 use super::tree::escaped;
-use crate::placed::{self, Implicit, Wanted};
+use crate::field_spans::{self, Implicit, Wanted};
 use text::Edit;
 
 /// Returns the edits that insert these values where the text omits them.
 pub(super) fn insertions(text: &str, wanted: &[Wanted<'_>]) -> Vec<Edit> {
-    placed::insertions(text, wanted, markup)
+    field_spans::insertions(text, wanted, markup)
 }
 
 /// The attributes with these values, in their element if that is missing too.

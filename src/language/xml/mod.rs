@@ -1,15 +1,15 @@
 //! The University of Utah's `.xml`: elements with attributes, and nested objects.
 
 mod add;
-mod answers;
-mod apart;
+mod clashing_ids;
 mod copies;
 mod insertions;
 mod lower;
+mod memory_estimate;
 mod motion;
 mod origins;
 mod roles;
-mod room;
+mod scene_text;
 mod structure;
 mod table;
 #[cfg(test)]
@@ -23,7 +23,7 @@ use origins::Origins;
 use text::Findings;
 use tree::Tree;
 
-pub(super) use room::tree_bytes;
+pub(super) use memory_estimate::tree_bytes;
 pub(super) use write::write;
 
 /// An `.xml` text.

@@ -9,7 +9,7 @@ use super::table::Parameter;
 use crate::form::{Along, Motion, PRECISE, rotation, rounded};
 use crate::structure::{Pose, number, replacements};
 use crate::view::spelled;
-use crate::{Answers, Node, StructureError};
+use crate::{Node, SceneText, StructureError};
 use geometry::normalise;
 use text::{Edit, Span, spell_like};
 

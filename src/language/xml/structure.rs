@@ -6,19 +6,19 @@ use std::collections::HashSet;
 use super::copies::Copies;
 use super::table::ObjectKind;
 use super::tree::{escaped, quote};
-use super::{Source, add, apart, roles};
+use super::{Source, add, clashing_ids, roles};
 use crate::frame::frameless;
 use crate::roles::Roles;
 use crate::structure::{Block, deletions, follows, line_before, lines, uncreatable};
 use crate::table::Category;
 use crate::view::{line_ending, line_from};
 use crate::{
-    Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, StructureError, Wish,
-    structure,
+    Addition, Motion, Neighbour, NewNode, Node, Placement, Pose, SceneText, StructureEdits,
+    StructureError, structure,
 };
 use text::{Edit, Span, counted, line_end};
 
-impl Restructure for Source {
+impl StructureEdits for Source {
     fn consequence(&self, nodes: &[Node]) -> Option<String> {
         match self.users_outside(nodes).len() {
             0 => None,
@@ -99,7 +99,7 @@ impl Restructure for Source {
     }
 
     fn set_apart(&self, base: &str, theirs: &str) -> Vec<Edit> {
-        apart::set_apart(&self.text, &self.tree, base, theirs)
+        clashing_ids::set_apart(&self.text, &self.tree, base, theirs)
     }
 
     fn called(&self, node: Node) -> Option<&str> {
@@ -154,7 +154,7 @@ impl Restructure for Source {
         add::ADDITIONS
     }
 
-    fn addition(&self, name: &str, wish: &Wish<'_>) -> Result<Placement, StructureError> {
+    fn addition(&self, name: &str, wish: &NewNode<'_>) -> Result<Placement, StructureError> {
         add::addition(self, name, wish)
     }
 

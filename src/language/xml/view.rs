@@ -5,8 +5,8 @@ use glam::DVec3;
 use super::Source;
 use super::origins::Origins;
 use super::table::camera::{self, PARAMETERS, index_of};
-use crate::Answers;
-use crate::placed::Placed;
+use crate::SceneText;
+use crate::field_spans::FieldSpans;
 use crate::table::Field;
 use crate::view::{Numbers, literal, take};
 use scene::{Camera, Focus, Lens, Size};
@@ -142,7 +142,7 @@ pub(super) fn camera(numbers: &Numbers, origins: &Origins) -> Camera {
 /// Returns the edits that turn the text's camera `before` into `camera`. `fields` are the view's.
 pub(super) fn edits(
     source: &Source,
-    fields: &[Placed],
+    fields: &[FieldSpans],
     before: &Camera,
     camera: &Camera,
 ) -> Vec<Edit> {

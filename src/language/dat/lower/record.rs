@@ -3,11 +3,11 @@
 use std::borrow::Cow;
 
 use super::Lowering;
-use crate::at::At;
 use crate::dat::table::{Part, RecordKind};
 use crate::record::{Record, what};
 use crate::report::Name;
 use crate::report::{did_you_mean, number_of, quoted};
+use crate::slot::At;
 use crate::table::{Field, Kind, Range};
 use crate::words::Words;
 use text::{Diagnostic, Span, counted, nearest_word};

@@ -6,11 +6,11 @@ use std::f64::consts::PI;
 use glam::DVec2;
 
 use super::Lowering;
-use crate::at::At;
 use crate::coefficients::Coefficients;
 use crate::dat::origins::{Place, UsePlace};
 use crate::dat::table::{LightKind, RecordKind, SHADOWS, SOURCES, TextureKind, UseKind};
 use crate::report::Name;
+use crate::slot::At;
 use crate::table::Category;
 use crate::words::Words;
 use geometry::normalise;

@@ -1,7 +1,7 @@
 //! The parts of every record, in the order of the text.
 
 use super::Part;
-use crate::at::words;
+use crate::slot::words;
 use crate::table::{Category, Field, Kind, Range};
 use geometry::Operation;
 use scene::Shadows;

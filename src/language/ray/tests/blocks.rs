@@ -6,7 +6,9 @@ use proptest::prelude::*;
 
 use crate::ray;
 use crate::ray::lower::lower_in_order;
-use crate::{Answers, Before, Editable, Lowered, Neighbour, Node, Restructure, StructureError};
+use crate::{
+    Before, Editable, Lowered, Neighbour, Node, SceneText, StructureEdits, StructureError,
+};
 use scene::blocks::BLOCK;
 use scene::{Meshes, Scene};
 use text::{Edit, Span};

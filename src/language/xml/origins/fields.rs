@@ -2,8 +2,8 @@
 
 use super::insert;
 use super::{Origins, Role};
+use crate::field_spans::{FieldSpans, Implicit, ImplicitAttribute, Insertion};
 use crate::node::Node;
-use crate::placed::{Implicit, ImplicitAttribute, Insertion, Placed};
 use crate::rendering;
 use crate::table::Field;
 use crate::xml::table::{
@@ -18,7 +18,7 @@ use text::Span;
 const MOST_ROWS: usize = 256;
 
 /// The fields of a node.
-pub(in crate::xml) fn of(origins: &Origins, tree: &Tree, node: Node) -> Vec<Placed> {
+pub(in crate::xml) fn of(origins: &Origins, tree: &Tree, node: Node) -> Vec<FieldSpans> {
     let mut rows = Rows {
         origins,
         tree,
@@ -105,7 +105,7 @@ impl Holder {
 struct Rows<'a> {
     origins: &'a Origins,
     tree: &'a Tree,
-    placed: Vec<Placed>,
+    placed: Vec<FieldSpans>,
 }
 
 impl Rows<'_> {
@@ -123,11 +123,11 @@ impl Rows<'_> {
         let field = &word.field;
         if let Some(attribute) = self.origins.value(self.tree, element, field.key) {
             self.placed
-                .push(Placed::explicit(field, vec![attribute.value]));
+                .push(FieldSpans::explicit(field, vec![attribute.value]));
             return;
         }
         let insertion = insert::attribute(self.tree, element);
-        self.placed.push(Placed {
+        self.placed.push(FieldSpans {
             field,
             spans: vec![insertion.span],
             implicit: Some(Box::new(Implicit {
@@ -174,7 +174,8 @@ impl Rows<'_> {
             let Some(texture) = self.texture(element, parameter) else {
                 continue;
             };
-            self.placed.push(Placed::explicit(&TEXTURE, vec![texture]));
+            self.placed
+                .push(FieldSpans::explicit(&TEXTURE, vec![texture]));
             self.transforms(element);
             let colours = CHECKER.iter().copied().rev();
             pending.extend(colours.filter_map(|colour| {
@@ -259,7 +260,7 @@ impl Rows<'_> {
                 insertion: insertion.clone(),
             })
         };
-        self.placed.push(Placed {
+        self.placed.push(FieldSpans {
             field,
             spans,
             implicit: (!is_explicit).then(implicit),
@@ -276,7 +277,7 @@ impl Rows<'_> {
         };
         let names = parameter.reading.attributes();
         let attributes = names.iter().zip(parameter.missing).enumerate();
-        self.placed.push(Placed {
+        self.placed.push(FieldSpans {
             field: &parameter.field,
             spans: vec![Span::at(insertion.span.start()); parameter.missing.len()],
             implicit: Some(Box::new(Implicit {

@@ -1,6 +1,6 @@
 //! Where to insert missing elements and attributes in an `.xml` text.
 
-use crate::placed::{Insertion, Piece};
+use crate::field_spans::{Insertion, Piece};
 use crate::xml::tree::Tree;
 use text::Span;
 

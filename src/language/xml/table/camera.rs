@@ -1,7 +1,7 @@
 //! The parameters of a camera.
 
 use super::{Parameter, Word, ZERO, at_least_0, word};
-use crate::at::is_same;
+use crate::slot::is_same;
 use crate::table::{Field, Kind, Range};
 
 pub(in crate::xml) static POSITION: Parameter =

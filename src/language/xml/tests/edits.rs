@@ -1,8 +1,8 @@
 //! Edits of fields change only those fields, and undoing them restores every byte.
 
 use super::{EXAMPLE, around, read};
+use crate::field_spans::FieldSpans;
 use crate::node::Node;
-use crate::placed::Placed;
 use crate::table::Kind;
 use crate::tests::Random;
 use scene::{Camera, Lens, Size};
@@ -25,7 +25,7 @@ fn values(text: &str) -> Vec<(Node, &'static str, Vec<String>)> {
     let (source, _) = read(text);
     let of = |node| {
         let placed = source.fields(node);
-        let row = |placed: Placed| {
+        let row = |placed: FieldSpans| {
             let value = |component: usize| match placed.default_of(component) {
                 Some(default) => default.to_owned(),
                 None => source.leaf_text(placed.spans[component]).to_owned(),

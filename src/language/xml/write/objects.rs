@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::transforms::placed;
 use super::{open, word};
+use crate::approximations::solids;
 use crate::losses::{Loss, Losses, Of};
-use crate::stand_ins::solids;
 use geometry::{FrameNumbers, Shape, Solid};
 use scene::Scene;
 

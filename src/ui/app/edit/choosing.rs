@@ -9,7 +9,7 @@ use crate::app::values::colours;
 use crate::app::{Shared, select, text};
 use ::text::Edit;
 use language::table::{Category, Kind};
-use language::{Node, Placed, Source};
+use language::{FieldSpans, Node, Source};
 
 /// Opens the list of the values of the current field if it has one, otherwise starts typing a
 /// value.
@@ -203,7 +203,7 @@ pub(crate) fn referred_to(shared: &Shared) -> Option<Node> {
 }
 
 /// The category of what a field refers to.
-fn category(placed: &Placed) -> Option<Category> {
+fn category(placed: &FieldSpans) -> Option<Category> {
     match placed.field.kind {
         Kind::Reference(category) | Kind::Name(category) => Some(category),
         _ => None,

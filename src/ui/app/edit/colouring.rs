@@ -6,7 +6,7 @@ use crate::app::values::literals::plain;
 use crate::app::values::{colours, literals};
 use crate::app::{Shared, Stride, text};
 use ::text::{parse_number, rounded, spell_like};
-use language::Placed;
+use language::FieldSpans;
 use language::table::Kind;
 use scene::Rgb;
 
@@ -111,7 +111,7 @@ fn change_colour(shared: &mut Shared, change: impl FnOnce(&mut ColourPicker)) {
 }
 
 /// The literals that give a field a colour; none for channels that have their value already.
-fn colour_values(shared: &Shared, placed: &Placed, colour: Rgb) -> Vec<(usize, String)> {
+fn colour_values(shared: &Shared, placed: &FieldSpans, colour: Rgb) -> Vec<(usize, String)> {
     let present = colours::literals(shared.source(), placed);
     let number = |at: usize| {
         let literal = present.get(at).map(|literal| plain(literal));

@@ -9,7 +9,7 @@ use crate::app::shared::inspection::Cross;
 use crate::app::shared::menu::{Entry, Menu, Purpose};
 use crate::app::{Shared, Tool, inspect, transform};
 use crate::keymap::Mode;
-use language::{Node, Wish};
+use language::{NewNode, Node};
 use render::{clearance, pixel_width, surface_under};
 
 /// The fraction of the picture's height that a new thing takes up.
@@ -97,7 +97,7 @@ fn add_with(shared: &mut Shared, name: &str, file: Option<&str>) -> bool {
     } else {
         let marked: Vec<_> = shared.cursor.marks.iter().copied().collect();
         let (centre, half, decimals) = place_for_new(shared);
-        let wish = Wish {
+        let wish = NewNode {
             centre,
             half,
             decimals,

@@ -10,7 +10,7 @@ use super::live_edit::LiveEdit;
 use super::rows::Rows;
 use crate::arrange::Areas;
 use crate::layout;
-use language::{Node, Nodes, Placed, Source};
+use language::{FieldSpans, Node, Nodes, Source};
 use text::{Diagnostic, Edit, Span};
 
 /// The maximum number of parts listed for a combined object.
@@ -44,7 +44,7 @@ impl Stride {
 pub struct Cursor {
     selected: Node,
     /// The fields of the selected node in the current text.
-    fields: Vec<Placed>,
+    fields: Vec<FieldSpans>,
     parts: Vec<(usize, Node)>,
     /// Which rows the list shows.
     pub rows: Rows,
@@ -144,7 +144,7 @@ impl Cursor {
     }
 
     /// The fields of the selected node, with their spans in the text.
-    pub fn fields(&self) -> &[Placed] {
+    pub fn fields(&self) -> &[FieldSpans] {
         &self.fields
     }
 
@@ -155,7 +155,7 @@ impl Cursor {
     }
 
     /// The selected field, if there is one.
-    pub(crate) fn current(&self) -> Option<&Placed> {
+    pub(crate) fn current(&self) -> Option<&FieldSpans> {
         self.fields.get(self.field)
     }
 
@@ -260,7 +260,7 @@ impl Cursor {
 
     /// The field with a value at this span of the text.
     pub(crate) fn field_at(&self, span: Span) -> Option<usize> {
-        let touches = |placed: &Placed| placed.spans.iter().any(|at| at.touches(span));
+        let touches = |placed: &FieldSpans| placed.spans.iter().any(|at| at.touches(span));
         self.fields.iter().position(touches)
     }
 
@@ -366,7 +366,7 @@ impl Cursor {
             self.stand_on(node, source);
         }
         // Several fields may have the same key.
-        let holds = |place: &Placed| moved.is_some_and(|span| place.spans.contains(&span));
+        let holds = |place: &FieldSpans| moved.is_some_and(|span| place.spans.contains(&span));
         let mut fields = self.fields.iter();
         let field = fields.position(holds).or_else(|| {
             let mut fields = self.fields.iter();

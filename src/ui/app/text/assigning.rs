@@ -3,12 +3,12 @@
 use super::edit::try_edits;
 use crate::app::Shared;
 use crate::app::values::typed::Values;
-use language::{Node, Placed};
+use language::{FieldSpans, Node};
 use scene::Camera;
 use text::{Diagnostic, Edit, Span};
 
 /// A field, its index among those of the selected node, and the components to set.
-type Wanted<'a> = (usize, &'a Placed, &'a Values);
+type Wanted<'a> = (usize, &'a FieldSpans, &'a Values);
 
 /// Sets components of the current field and, with the further values, of those below it, in one
 /// edit.
@@ -32,7 +32,7 @@ pub(crate) fn sets_marked(shared: &Shared) -> bool {
 
 /// The edits that set components of fields of the selected node or, if it is marked, of all
 /// marked nodes that have them.
-pub(crate) fn edits_of(shared: &Shared, wanted: &[(&Placed, Values)]) -> Vec<Edit> {
+pub(crate) fn edits_of(shared: &Shared, wanted: &[(&FieldSpans, Values)]) -> Vec<Edit> {
     let source = shared.source();
     if !sets_marked(shared) {
         return source.edits(wanted);
@@ -40,7 +40,7 @@ pub(crate) fn edits_of(shared: &Shared, wanted: &[(&Placed, Values)]) -> Vec<Edi
     let marks = shared.cursor.marks.iter();
     let fields: Vec<_> = marks.flat_map(|&node| source.fields(node)).collect();
     let found = fields.iter().filter_map(|placed| {
-        let is_meant = |(wanted, _): &&(&Placed, _)| {
+        let is_meant = |(wanted, _): &&(&FieldSpans, _)| {
             wanted.field.key == placed.field.key && wanted.field.kind == placed.field.kind
         };
         let (_, values) = wanted.iter().find(is_meant)?;
@@ -101,7 +101,7 @@ fn camera_with(
     camera: Option<Camera>,
     wanted: &[Wanted],
 ) -> Result<Camera, Diagnostic> {
-    let refuse = |placed: &Placed, reason: &str| {
+    let refuse = |placed: &FieldSpans, reason: &str| {
         let message = format!("view {}: {reason}", placed.field.key);
         Diagnostic::error(Span::at(0), message, placed.field.allowed.words())
     };
@@ -127,7 +127,7 @@ fn camera_with(
 }
 
 /// The fields without their indices.
-fn unnumbered<'a>(wanted: &[Wanted<'a>]) -> Vec<(&'a Placed, Values)> {
+fn unnumbered<'a>(wanted: &[Wanted<'a>]) -> Vec<(&'a FieldSpans, Values)> {
     let own = |&(_, placed, values): &Wanted<'a>| (placed, values.clone());
     wanted.iter().map(own).collect()
 }

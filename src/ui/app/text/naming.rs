@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::app::Shared;
 use document::StepName;
-use language::{Node, Placed, Source};
+use language::{FieldSpans, Node, Source};
 use text::{Edit, Position, Span, counted};
 
 /// The number of edits that are looked at; more are only counted, as that takes long.
@@ -151,10 +151,10 @@ pub(super) fn name_of_change(shared: &Shared, written: &[Span]) -> StepName {
 }
 
 /// The only field that these edits set, with its node.
-fn field_of(shared: &Shared, edits: &[Edit]) -> Option<(Node, Placed)> {
+fn field_of(shared: &Shared, edits: &[Edit]) -> Option<(Node, FieldSpans)> {
     let source = shared.source();
     let node = source.node_at(edits.first()?.span)?;
-    let sets = |placed: &Placed| {
+    let sets = |placed: &FieldSpans| {
         let is_own = |edit: &Edit| !edit.span.is_empty() && placed.spans.contains(&edit.span);
         edits.iter().all(is_own)
     };
@@ -163,7 +163,7 @@ fn field_of(shared: &Shared, edits: &[Edit]) -> Option<(Node, Placed)> {
 }
 
 /// The literals of a field before and after edits.
-fn values(shared: &Shared, placed: &Placed, edits: &[Edit]) -> [String; 2] {
+fn values(shared: &Shared, placed: &FieldSpans, edits: &[Edit]) -> [String; 2] {
     let source = shared.source();
     let old = placed.spans.iter().map(|span| source.leaf_text(*span));
     let new = placed.spans.iter().map(|span| {
@@ -187,7 +187,7 @@ fn changed(shared: &Shared, spans: &[Span]) -> String {
         }
     }
     let key = |(node, spans): (&Node, &Vec<Span>)| {
-        let holds = |placed: &Placed| spans.iter().all(|span| placed.spans.contains(span));
+        let holds = |placed: &FieldSpans| spans.iter().all(|span| placed.spans.contains(span));
         let field = source.fields(*node).into_iter().find(holds);
         field.map(|placed| placed.field.key)
     };

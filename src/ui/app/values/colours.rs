@@ -2,7 +2,7 @@
 
 use super::literals::plain;
 use language::table::Kind;
-use language::{Placed, Source};
+use language::{FieldSpans, Source};
 use scene::Rgb;
 use text::parse_number;
 
@@ -21,13 +21,13 @@ pub(crate) fn of_literals(kind: Kind, literals: &[String]) -> Option<Rgb> {
 }
 
 /// The colour of a field, as written or by default.
-fn of_field(source: &Source, placed: &Placed) -> Option<Rgb> {
+fn of_field(source: &Source, placed: &FieldSpans) -> Option<Rgb> {
     of_literals(placed.field.kind, &literals(source, placed))
 }
 
 /// The literals of a field, as written or by default; none of a part of the view that the text
 /// omits.
-pub(crate) fn literals(source: &Source, placed: &Placed) -> Vec<String> {
+pub(crate) fn literals(source: &Source, placed: &FieldSpans) -> Vec<String> {
     let literal = |(component, span)| match placed.default_of(component) {
         Some(default) => default.to_owned(),
         None => source.leaf_text(span).to_owned(),

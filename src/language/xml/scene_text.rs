@@ -7,20 +7,20 @@ use super::insertions::insertions;
 use super::origins::{NamedPlace, What, fields};
 use super::table::ObjectKind;
 use super::tree::{escaped, quote};
-use super::{Source, lower, room, view};
+use super::{Source, lower, memory_estimate, view};
+use crate::field_spans::{Wanted, edits};
 use crate::node::{FileKind, object_at, place_of};
-use crate::placed::{Wanted, edits};
 use crate::rendering::Around;
 use crate::table::{Category, Field};
 use crate::view::Numbers;
-use crate::{Answers, Lowered, NamedFile, Node, Nodes, Placed, Visibility};
+use crate::{FieldSpans, Lowered, NamedFile, Node, Nodes, SceneText, Visibility};
 use memory::OutOfMemory;
 use scene::{Camera, Meshes};
 use text::{Edit, Span, is_one_line_end, visible};
 
-impl Answers for Source {
+impl SceneText for Source {
     fn lower(&mut self, meshes: &Meshes) -> Result<Lowered, OutOfMemory> {
-        let fits = room::fits(&self.tree);
+        let fits = memory_estimate::fits(&self.tree);
         let found = fits.map(|()| lower::lower(&self.text, &self.tree, meshes));
         self.store(found)
     }
@@ -41,7 +41,7 @@ impl Answers for Source {
         self.origins.name(node)
     }
 
-    fn fields(&self, node: Node) -> Vec<Placed> {
+    fn fields(&self, node: Node) -> Vec<FieldSpans> {
         fields::of(&self.origins, &self.tree, node)
     }
 

@@ -1,7 +1,7 @@
 //! Estimates of the memory that an `.xml` text takes: for its tree and its scene.
 
 use super::tree::{Attribute, Element, Tree};
-use crate::room::{Counts, each, scene_fits};
+use crate::memory_estimate::{Counts, each, scene_fits};
 use geometry::Affine;
 use memory::OutOfMemory;
 use scene::{Material, Object};

@@ -2,17 +2,17 @@
 
 use std::borrow::Cow;
 
-use super::Answers;
+use super::SceneText;
 use super::table::Field;
 use text::{Edit, Span};
 
 /// A field with the places of its components.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Placed {
+pub struct FieldSpans {
     /// The field in the table.
     pub field: &'static Field,
     /// One span per component; empty, at the place for insertion, if the text does not state the
-    /// component. No spans at all for a part of the view that only [`Answers::view_edits`] can add.
+    /// component. No spans at all for a part of the view that only [`SceneText::view_edits`] can add.
     pub spans: Vec<Span>,
     /// Defaults and insertion of components that the text omits, if it could state them.
     pub(super) implicit: Option<Box<Implicit>>,
@@ -63,9 +63,9 @@ pub(super) enum Piece {
 }
 
 /// A field and the new values of its components, by index.
-pub type Wanted<'p> = (&'p Placed, Vec<(usize, String)>);
+pub type Wanted<'p> = (&'p FieldSpans, Vec<(usize, String)>);
 
-impl Placed {
+impl FieldSpans {
     /// A field stated in the text, or a part of the view that is not.
     pub(super) fn explicit(field: &'static Field, spans: Vec<Span>) -> Self {
         Self {
@@ -86,7 +86,7 @@ impl Placed {
     }
 
     /// Returns the edits that set these components.
-    pub fn edits(&self, source: &dyn Answers, values: &[(usize, String)]) -> Vec<Edit> {
+    pub fn edits(&self, source: &dyn SceneText, values: &[(usize, String)]) -> Vec<Edit> {
         source.edits(&[(self, values.to_vec())])
     }
 }
@@ -138,7 +138,10 @@ impl Insertion {
 }
 
 /// Returns the edits that set these components where the text states them.
-pub(super) fn edits<Source: Answers + ?Sized>(source: &Source, wanted: &[Wanted<'_>]) -> Vec<Edit> {
+pub(super) fn edits<Source: SceneText + ?Sized>(
+    source: &Source,
+    wanted: &[Wanted<'_>],
+) -> Vec<Edit> {
     let edits = wanted.iter().flat_map(|(placed, values)| {
         let explicit = values
             .iter()

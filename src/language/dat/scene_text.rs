@@ -5,22 +5,22 @@ use std::collections::BTreeSet;
 use super::origins::{ObjectPlace, Place, place};
 use super::table::OPERATIONS;
 use super::tree::{is_comment, leaves};
-use super::{Source, lower, room, view, visibility};
-use crate::at::words;
+use super::{Source, lower, memory_estimate, view, visibility};
 use crate::node::{FileKind, object_at, place_of};
 use crate::rendering::Around;
 use crate::report::Name;
+use crate::slot::words;
 use crate::table::{Category, Field, Kind};
 use crate::view::Numbers;
 use crate::words::skip_white_space;
-use crate::{Answers, Lowered, NamedFile, Node, Nodes, Placed, Visibility};
+use crate::{FieldSpans, Lowered, NamedFile, Node, Nodes, SceneText, Visibility};
 use memory::OutOfMemory;
 use scene::{Camera, Meshes};
 use text::{Edit, Span, line_start};
 
-impl Answers for Source {
+impl SceneText for Source {
     fn lower(&mut self, _: &Meshes) -> Result<Lowered, OutOfMemory> {
-        let fits = room::fits(&self.tree);
+        let fits = memory_estimate::fits(&self.tree);
         let found = fits.map(|()| lower::lower(&self.text, &self.tree));
         self.store(found)
     }
@@ -60,7 +60,7 @@ impl Answers for Source {
         name.map_or_else(|| node.to_string(), |name| name.to_string())
     }
 
-    fn fields(&self, node: Node) -> Vec<Placed> {
+    fn fields(&self, node: Node) -> Vec<FieldSpans> {
         match node {
             Node::View => return self.origins.view_fields(&self.text, &self.tree),
             Node::Render => return self.origins.render_fields(&self.text),
@@ -151,7 +151,7 @@ impl Answers for Source {
     fn operation(&self, object: usize) -> Option<&str> {
         let fields = self.fields(Node::Object(object));
         let operator = Kind::Choice(const { &words(&OPERATIONS) });
-        let is_operator = |placed: &&Placed| placed.field.kind == operator;
+        let is_operator = |placed: &&FieldSpans| placed.field.kind == operator;
         let operator = fields.iter().find(is_operator)?;
         Some(operator.spans.first()?.of(&self.text))
     }

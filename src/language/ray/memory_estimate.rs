@@ -7,7 +7,7 @@ use super::origins::ObjectPlace;
 use super::reader::LEAST_NUMBERS;
 use super::table::ShapeKind;
 use super::tree::Tree;
-use crate::room::{Counts, each};
+use crate::memory_estimate::{Counts, each};
 use geometry::Affine;
 use memory::{Need, OutOfMemory, megabytes};
 use scene::blocks::BLOCK;

@@ -1,7 +1,7 @@
 //! Estimates of the memory that a `.dat` text takes: for its tree and its scene.
 
 use super::tree::Tree;
-use crate::room::{Counts, each, scene_fits};
+use crate::memory_estimate::{Counts, each, scene_fits};
 use geometry::{Affine, Shape};
 use memory::OutOfMemory;
 use scene::Material;

@@ -3,20 +3,20 @@
 use super::origins::distribute;
 use super::table::{AMBIENT, LIGHT};
 use super::tree::comment_of_line;
-use super::{Source, again, lower, room, view};
+use super::{Source, incremental, lower, memory_estimate, view};
 use crate::rendering::Around;
 use crate::report::Name;
 use crate::table::{self, Field};
 use crate::view::Numbers;
 use crate::written::Since;
-use crate::{Answers, Before, Lowered, Node, Nodes, Placed, Visibility};
+use crate::{Before, FieldSpans, Lowered, Node, Nodes, SceneText, Visibility};
 use memory::OutOfMemory;
 use scene::{Camera, Meshes};
 use text::{Edit, Span};
 
-impl Answers for Source {
+impl SceneText for Source {
     fn lower(&mut self, _: &Meshes) -> Result<Lowered, OutOfMemory> {
-        let fits = room::fits(&self.text, &self.tree);
+        let fits = memory_estimate::fits(&self.text, &self.tree);
         let found = fits.map(|()| lower::lower(&self.text, &self.tree));
         self.store(found)
     }
@@ -27,7 +27,7 @@ impl Answers for Source {
             Since::Edited(edits) => &edits[..],
             Since::Unknown => return None,
         };
-        let found = again::lower(&self.text, &self.tree, &self.origins, &before, edits);
+        let found = incremental::lower(&self.text, &self.tree, &self.origins, &before, edits);
         let (origins, lowered) = found?;
         self.place(origins);
         Some(lowered)
@@ -58,7 +58,7 @@ impl Answers for Source {
         }
     }
 
-    fn fields(&self, node: Node) -> Vec<Placed> {
+    fn fields(&self, node: Node) -> Vec<FieldSpans> {
         let origins = &self.origins;
         let tokens = &origins.numbers(&self.tree, node);
         match node {

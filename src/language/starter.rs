@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::node::IndexedNode;
-use super::structure::{Wish, adapted};
+use super::structure::{NewNode, adapted};
 use super::view::{beginning, line_ending};
 use super::{Node, Source, StructureError};
 use scene::Meshes;
@@ -36,7 +36,7 @@ impl Source {
     }
 
     /// Returns the edit that writes a minimal scene with a thing of a kind, by its name in
-    /// [`additions`](super::Restructure::additions), into a [blank](Source::is_blank) text, behind
+    /// [`additions`](super::StructureEdits::additions), into a [blank](Source::is_blank) text, behind
     /// its comments, and the node of the thing.
     ///
     /// # Errors
@@ -49,7 +49,7 @@ impl Source {
             Arc::new(self.language().skeleton().to_owned()),
         );
         scene.understand()?;
-        let wish = Wish {
+        let wish = NewNode {
             centre: DVec3::ZERO,
             half: 1.0,
             decimals: 2,
