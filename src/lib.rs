@@ -34,11 +34,11 @@
 //! | [`accel`] | bounding volume hierarchies | what the boxes contain |
 //! | [`render`] | renders scenes: worker, integrators, film, tone mapping | documents, files, terminals |
 //! | [`explain`] | records of samples in words, with the names and places of the text | how rays are traced, terminals |
-//! | [`file`](mod@file) | reads scenes and replaces files, atomically where the file system allows it; says why it could not | what the bytes mean |
+//! | [`file`](mod@file) | reads scenes and replaces files, atomically where the file system allows it; says why it could not; the state folder | what the bytes mean |
 //! | [`image_file`] | picture files: writes frames, reads textures | what is in a scene |
 //! | [`assets`] | reads the pictures and meshes that scenes name | how they are shaded |
 //! | [`compare`] | two pictures against each other | files, scenes |
-//! | [`part`] | blocks of pictures on disk: shards, checkpoints, merging | scenes, tracing |
+//! | [`part`] | blocks of unfinished pictures on disk: shards, checkpoints, traces of the interface, merging | scenes, tracing |
 //! | [`track`] | values over frames: reads track files, edits texts to show a frame | files, rendering |
 //! | [`watch`] | reports changes of paths on disk | what the files contain |
 //! | [`ui`] | the terminal: the only room that knows ratatui and crossterm; a mode is a folder of `app`, a command a row of `app/command`, a key a row of its room | how pixels are computed |

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::Path;
 
 use sha2::Sha256;
@@ -73,79 +73,9 @@ impl Digest {
     }
 }
 
-/// A reader or writer with the digest of all bytes that passed through it.
-pub struct Digested<T> {
-    inner: T,
-    digest: Sha256,
-}
-
-impl<T> Digested<T> {
-    /// Digests what passes from now on.
-    pub fn new(inner: T) -> Self {
-        Self {
-            inner,
-            digest: Sha256::default(),
-        }
-    }
-
-    /// The reader or writer, and the digest so far.
-    pub fn finish(self) -> (T, [u8; 32]) {
-        use sha2::Digest as _;
-        (self.inner, self.digest.finalize().into())
-    }
-
-    fn pass(&mut self, bytes: &[u8]) {
-        use sha2::Digest as _;
-        self.digest.update(bytes);
-    }
-}
-
-impl<R: Read> Read for Digested<R> {
-    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        let count = self.inner.read(bytes)?;
-        self.pass(&bytes[..count]);
-        Ok(count)
-    }
-}
-
-impl<W: Write> Write for Digested<W> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let count = self.inner.write(bytes)?;
-        self.pass(&bytes[..count]);
-        Ok(count)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.inner.flush()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Against `sha256sum`, however the bytes are divided.
-    #[test]
-    fn bytes_that_pass_are_digested() {
-        const ABC: &str = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
-        let hexadecimal = |digest: [u8; 32]| {
-            let digits = digest.map(|byte| format!("{byte:02x}"));
-            digits.concat()
-        };
-        let mut written = Digested::new(Vec::new());
-        for part in [&b"a"[..], b"", b"bc"] {
-            written.write_all(part).expect("memory is there");
-        }
-        let (bytes, digest) = written.finish();
-        assert_eq!(
-            (&bytes[..], hexadecimal(digest)),
-            (&b"abc"[..], ABC.to_owned())
-        );
-        let mut read = Digested::new(&b"abcd"[..]);
-        read.read_exact(&mut [0; 3]).expect("they are there");
-        let (left, digest) = read.finish();
-        assert_eq!((left, hexadecimal(digest)), (&b"d"[..], ABC.to_owned()));
-    }
 
     /// Against `sha256sum`.
     #[test]

@@ -28,7 +28,7 @@ use text::{Position, Span};
 
 pub use backup::{backups, interruption};
 pub use current::{absolute, has_folder, regain_folder};
-pub use digest::{Digest, Digested};
+pub use digest::Digest;
 pub use lock::{Lock, lock};
 pub use replace::{deliver, replace};
 pub use target::end_of_links;

@@ -116,10 +116,21 @@ impl Contents {
         self.index.values().map(|place| place.taken).sum()
     }
 
+    /// The mean number of samples of a pixel, rounded down.
+    pub fn mean_samples(&self) -> u32 {
+        let pixels = self.header.picture.settings.traced().size().pixels();
+        (self.all_taken() / pixels as u64) as u32
+    }
+
     /// The rays of all blocks, in this process and before.
     pub fn counts(&self) -> Counts {
         let counts = self.index.values().map(|place| place.counts);
         counts.fold(Counts::default(), Counts::and)
+    }
+
+    /// The blocks of which something is written.
+    pub fn written(&self) -> impl Iterator<Item = io::Result<Block>> {
+        self.index.keys().map(|&number| self.block(number))
     }
 
     /// A block as far as it was written.
@@ -147,48 +158,4 @@ impl Place {
             counts: block.counts,
         }
     }
-}
-
-/// How far a picture is traced of which these files hold parts, if of each block the furthest counts.
-pub struct Furthest<'p>(pub &'p [Contents]);
-
-impl<'p> Furthest<'p> {
-    /// The blocks of which something is traced.
-    pub fn blocks(&self) -> impl Iterator<Item = io::Result<Block>> + use<'p> {
-        let best = best_of(self.0);
-        best.map(|(number, contents)| contents.block(number))
-    }
-
-    /// The mean number of samples of a pixel, rounded down.
-    pub fn spp(&self) -> u32 {
-        let taken = best_of(self.0).map(|(number, contents)| contents.taken(number));
-        let pixels = self.0.first().map_or(1, |first| {
-            let blocks = first.blocks();
-            let areas = (0..blocks.count()).map(|number| blocks.area(number) as u64);
-            areas.sum()
-        });
-        (taken.sum::<u64>() / pixels) as u32
-    }
-
-    /// The largest goal.
-    pub fn goal(&self) -> Goal {
-        let goals = self.0.iter().map(Contents::goal);
-        goals
-            .max_by_key(|goal| (goal.spp, goal.time))
-            .unwrap_or_default()
-    }
-}
-
-/// The numbers of the blocks of which something is traced, each with the file that has most of it.
-fn best_of(files: &[Contents]) -> impl Iterator<Item = (u32, &Contents)> {
-    let count = files.first().map_or(0, |first| first.blocks().count());
-    (0..count).filter_map(|number| {
-        // The first of equals.
-        let best = files
-            .iter()
-            .rev()
-            .max_by_key(|contents| contents.taken(number));
-        let best = best.filter(|contents| 0 < contents.taken(number))?;
-        Some((number, best))
-    })
 }

@@ -20,7 +20,7 @@ mod tests;
 mod traces;
 mod writer;
 
-pub use contents::{Contents, Furthest};
+pub use contents::Contents;
 pub use header::{Difference, Header, OldForm};
 pub use merge::{Merged, Unmerged, merge, missing, ranges};
 pub use reader::Unreadable;

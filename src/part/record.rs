@@ -122,7 +122,10 @@ impl Record {
                 return Err(Damage::Corrupt);
             }
             let area = blocks.area(number);
-            more(&mut bytes, PIXEL * area + Lists::of(lists, area).bytes())?;
+            more(
+                &mut bytes,
+                PIXEL * area + lengths(lists, area).iter().sum::<usize>(),
+            )?;
         }
         more(&mut bytes, CRC)?;
         let (said, crc) = bytes.split_at(bytes.len() - CRC);
@@ -151,27 +154,14 @@ fn checksum(header: u32, bytes: &[u8]) -> u32 {
     hasher.finalize()
 }
 
-/// The bytes of the lists that some blocks have.
-struct Lists {
-    half: usize,
-    causes: usize,
-    apart: usize,
-}
-
-impl Lists {
-    /// Those of a block of this many pixels, by their bits.
-    fn of(bits: u8, area: usize) -> Self {
-        let there = |bit: u8, bytes: usize| if bits & bit == 0 { 0 } else { bytes };
-        Self {
-            half: there(HALF, SUM * area),
-            causes: there(CAUSES, CAUSE * area),
-            apart: there(APART, 4 * SQUARES),
-        }
-    }
-
-    fn bytes(&self) -> usize {
-        self.half + self.causes + self.apart
-    }
+/// The bytes of each list that some blocks have, in a block of this many pixels, by their bits.
+fn lengths(bits: u8, area: usize) -> [usize; 3] {
+    let lists = [
+        (HALF, SUM * area),
+        (CAUSES, CAUSE * area),
+        (APART, 4 * SQUARES),
+    ];
+    lists.map(|(bit, bytes)| if bits & bit == 0 { 0 } else { bytes })
 }
 
 fn put_block(block: &Block, bytes: &mut Vec<u8>) {
@@ -180,7 +170,7 @@ fn put_block(block: &Block, bytes: &mut Vec<u8>) {
         | bit(CAUSES, block.causes.is_empty())
         | bit(APART, block.apart.is_empty());
     let area = block.sums.len();
-    bytes.reserve(BLOCK_HEAD + PIXEL * area + Lists::of(lists, area).bytes() + CRC);
+    bytes.reserve(BLOCK_HEAD + PIXEL * area + lengths(lists, area).iter().sum::<usize>() + CRC);
     bytes.extend([BLOCK, lists]);
     bytes.extend(block.number.to_le_bytes());
     bytes.extend(block.samples.to_le_bytes());
@@ -214,7 +204,7 @@ fn put_sums(sums: &[DVec3], bytes: &mut Vec<u8>) {
 fn block(bytes: &[u8], blocks: Blocks) -> Block {
     let (lists, number) = (bytes[1], u32_at(bytes, 2));
     let area = blocks.area(number);
-    let lists = Lists::of(lists, area);
+    let [half, causes, apart] = lengths(lists, area);
     let mut rest = &bytes[BLOCK_HEAD..];
     let mut next = |count: usize| {
         let (list, others) = rest.split_at(count);
@@ -253,9 +243,9 @@ fn block(bytes: &[u8], blocks: Blocks) -> Block {
         squared_errors: floats(next(4 * area)),
         variances: floats(next(4 * area)),
         objects: integers(next(4 * area)),
-        half: sums_of(next(lists.half)),
-        causes: next(lists.causes).chunks_exact(CAUSE).map(cause).collect(),
-        apart: integers(next(lists.apart)),
+        half: sums_of(next(half)),
+        causes: next(causes).chunks_exact(CAUSE).map(cause).collect(),
+        apart: integers(next(apart)),
     }
 }
 

@@ -100,8 +100,12 @@ impl Traces {
         Ok(())
     }
 
-    /// The trace that was kept of the film of a picture, if there is one. Removes a damaged one.
+    /// The trace that was kept of the film of a picture, if there is one. Pictures of what is known from
+    /// tracing light have none. Removes a damaged one.
     pub fn find(&self, picture: &Provenance) -> Result<Option<Contents>, NoTrace> {
+        if !picture.is_of_film() {
+            return Ok(None);
+        }
         let Some(folder) = Folder::find(&self.state, Store::Traces)? else {
             return Ok(None);
         };

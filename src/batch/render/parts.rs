@@ -13,7 +13,7 @@ use super::tally::Tally;
 use super::{Error, Means, Output};
 use crate::progress::Reporter;
 use crate::signals::Signals;
-use part::{Header, Part, Shard};
+use part::{Header, NoTrace, Part, Shard, Traces};
 use render::{
     BLOCK, Block, BlockTracer, Blocks, Counts, Frame, Job, Limit, Progress, Provenance, Settings,
     memory_for_blocks,
@@ -105,14 +105,18 @@ impl PartFile {
             Existing::Continued => Part::open(&path, &header),
             Existing::Refused => Part::create(&path, &header),
         };
-        let part = part.map_err(|source| Error::Part {
+        let mut part = part.map_err(|source| Error::Part {
             path: path.clone(),
             source,
         })?;
+        let note = |what: &str| {
+            means
+                .messages()
+                .note(&format!("{}: {what}", path.display()));
+        };
         if 0 < part.cut() {
             let cut = counted(part.cut() as usize, "damaged byte");
-            let note = format!("{}: discarded {cut} at the end", path.display());
-            means.messages().note(&note);
+            note(&format!("discarded {cut} at the end"));
         }
         let spp = header.picture.settings.spp;
         let numbers = shard.blocks(part.blocks());
@@ -126,7 +130,20 @@ impl PartFile {
                 path.display()
             )));
         }
+        if parts.existing == Existing::Continued {
+            match take_over(&mut part, &numbers, spp) {
+                Ok(0) => {}
+                Ok(taken) => {
+                    let taken = counted(taken, "block");
+                    note(&format!(
+                        "takes over {taken} of the interface's full-size trace"
+                    ));
+                }
+                Err(reason) => note(&reason.to_string()),
+            }
+        }
         Ok(Opened {
+            spent: part.goal().time,
             part,
             path,
             header,
@@ -139,6 +156,33 @@ impl PartFile {
     }
 }
 
+/// Takes over the blocks in which the interface's full-size trace of the same film is further, unless it
+/// has more samples than `spp`. Returns how many there are.
+fn take_over(part: &mut Part, numbers: &[u32], spp: u32) -> Result<usize, NoTrace> {
+    // Without a state folder there are no traces.
+    let Ok(traces) = Traces::of_user() else {
+        return Ok(0);
+    };
+    let Some(trace) = traces.find(&part.header().picture)? else {
+        return Ok(0);
+    };
+    let blocks = part.blocks();
+    let mut taken = 0;
+    for &number in numbers {
+        if part.taken(number) < trace.taken(number) && trace.most_samples(number) <= spp {
+            let block = trace.block(number)?.continued_to(spp, blocks);
+            if part.taken(number) < block.total(blocks) {
+                part.put(block)?;
+                taken += 1;
+            }
+        }
+    }
+    if 0 < taken {
+        part.spend(part.goal().time.max(trace.goal().time))?;
+    }
+    Ok(taken)
+}
+
 /// A part file that is open, to be traced into.
 pub(super) struct Opened {
     part: Part,
@@ -149,6 +193,8 @@ pub(super) struct Opened {
     signals: Signals,
     means: Means,
     begun: Instant,
+    /// The time spent by processes before.
+    spent: Duration,
     /// Rays traced.
     counts: Counts,
 }
@@ -241,7 +287,7 @@ impl Opened {
             .copied()
             .filter(|&number| part.samples(number) < spp);
         let lacking: Vec<_> = lacking.collect();
-        let begun = lacking.iter().filter(|&&number| 0 < part.samples(number));
+        let begun = lacking.iter().filter(|&&number| 0 < part.taken(number));
         let begun = begun.map(|&number| {
             let block = part.block(number)?.continued_to(spp, blocks);
             Ok((number, block))
@@ -304,6 +350,7 @@ impl Opened {
             reporter.show(&progress(tally.least(), tally.done(), elapsed, counts));
         }
         self.counts = self.counts.and(tally.counts);
+        self.part.spend(self.spent + self.begun.elapsed())?;
         self.part.sync()
     }
 

@@ -83,7 +83,10 @@ impl Kept {
         let region = blocks.region(number);
         let mut squares = [None; SQUARES];
         for pixel in region.pixels() {
-            let samples = samples_at(self.pixel(pixel).level, self.spp);
+            let level = self
+                .tile(pixel)
+                .map(|tile| tile.pixel_level(tile.index(pixel)));
+            let samples = samples_at(level.unwrap_or(0), self.spp);
             let of_square = squares[square(pixel)].get_or_insert(samples);
             if *of_square != samples {
                 *of_square = 0;

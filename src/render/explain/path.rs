@@ -337,14 +337,14 @@ fn light_term<C>(
     };
     let reflected = |facing: &Facing<f64>| light.scale * scattered(facing.toward.into());
     let from = point.surface.point;
-    let chosen = light_sphere(&light).and_then(|sphere| sphere.choose(from, place));
+    let chosen = light_sphere(light).and_then(|sphere| sphere.choose(from, place));
     let mut term = lit.term(number, chosen, reflected, added)?;
     term.chance = chance;
     if probe.is_by_photons(light) && term.transmittance.is_some_and(|share| share < 1.0) {
         term.transmittance = Some(0.0);
         term.dark = Some(UnlitReason::Blocked);
     }
-    let Some(sphere) = luminous_sphere(&light) else {
+    let Some(sphere) = luminous_sphere(light) else {
         return Some(term);
     };
     // Falloff does not apply to lights with a size.

@@ -31,7 +31,7 @@ pub(super) fn shading(
         emitters: Vec::new(),
         caustics: Rgb::ZERO,
         radiance: Rgb::ZERO,
-        mirror: mirror_weight(&material, point.side),
+        mirror: mirror_weight(material, point.side),
         boundary: boundary(ray, point, material),
         stop: None,
         material: material.clone(),

@@ -198,7 +198,7 @@ impl<C: Fn() -> bool> Trace<'_, C> {
             let reflected = |facing: &Facing<f64>| {
                 let toward = DVec3::from(facing.toward);
                 let halfway = || point.normal.dot((toward + point.view).normalize());
-                reflectance(&material, facing.cosine, facing.mirrored, halfway)
+                reflectance(material, facing.cosine, facing.mirrored, halfway)
             };
             let added = match (wave.unblocked.first(), wave.transmittances.first()) {
                 (Some(_), Some(0.0)) => Rgb::ZERO,

@@ -232,17 +232,20 @@ fn exchanged() -> Vec<Job> {
     let by_photons = Settings {
         integrator: Integrator::Photon,
         falloff: FalloffRule::Square,
-        ..settings(40, 35, 24)
+        ..settings(40, 35, 20)
     };
     let adaptive = Settings {
         noise: 0.055,
-        ..settings(70, 41, 256)
+        ..settings(40, 35, 64)
     };
     let surface = Settings {
         aov: Some(Aov::Depth),
         ..settings(40, 35, 16)
     };
-    let mut jobs = jobs(11);
+    // Wide, low and a region, by Whitted and by paths.
+    let shapes = jobs(11).into_iter().enumerate();
+    let shapes = shapes.filter(|(shape, _)| [0, 2, 5, 9].contains(shape));
+    let mut jobs: Vec<_> = shapes.map(|(_, job)| job).collect();
     jobs.extend([by_photons, surface].map(|settings| job(&scene, settings)));
     jobs.push(job(&wall(), adaptive));
     jobs
@@ -271,11 +274,11 @@ fn a_tracer_of_blocks_continues_what_a_renderer_left() {
         let Settings {
             spp, integrator, ..
         } = job.settings;
-        // Photons take most of them.
+        // Several blocks, or photons and some of them.
         let polls = if integrator == Integrator::Photon {
             50_000
         } else {
-            60
+            2_000
         };
         let last = Job {
             frames: Frames::LastWithValues,
@@ -312,7 +315,7 @@ fn a_tracer_of_blocks_continues_what_a_renderer_left() {
             assert!(frame.values == alone.values, "{:?}", job.settings);
         }
     }
-    assert!(10 < begun, "{begun}");
+    assert!(5 < begun, "{begun}");
 }
 
 #[test]
@@ -323,7 +326,7 @@ fn a_renderer_continues_what_a_tracer_of_blocks_left() {
         let tracer = tracer.expect("it is traced").expect("it is not stopped");
         let blocks = tracer.blocks();
         let none = || (0..blocks.count()).map(|number| Block::new(number, blocks));
-        for samples in [1, 6, 8, job.settings.spp] {
+        for samples in [6, job.settings.spp] {
             let some = none().filter(|block| block.number != 1).collect();
             let mut left = continued(&tracer, some, samples, None);
             // The first has all its samples.

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use crate::msg::{Origin, Recalled};
 use crate::queue::spawn;
 use assets::FileDigests;
-use part::{Furthest, Shard, Traces};
+use part::{Contents, Shard, Traces};
 use render::{Job, Kept, Provenance, Renderer};
 use scene::Scene;
 
@@ -98,21 +98,24 @@ impl Traced {
                 None
             });
             let part = part::find_part(&part::path_beside(&beside, Shard::WHOLE), &picture);
-            let found: Vec<_> = trace.into_iter().chain(part).collect();
-            let furthest = Furthest(&found);
-            let (spp, goal) = (furthest.spp(), furthest.goal());
+            // The trace of equals.
+            let found = part.into_iter().chain(trace);
+            let Some(found) = found.max_by_key(Contents::all_taken) else {
+                return;
+            };
+            let (spp, goal) = (found.mean_samples(), found.goal());
             if job.settings.spp < spp {
                 report(Recalled::More(goal.spp.min(spp.next_power_of_two())));
-            } else if !found.is_empty() {
-                match Kept::of(furthest.blocks(), goal.time, &job) {
-                    Ok(kept) => {
-                        let spp = kept.spp();
-                        if send.send(kept).is_ok() {
-                            report(Recalled::Continued(spp));
-                        }
+                return;
+            }
+            match Kept::of(found.written(), goal.time, &job) {
+                Ok(kept) => {
+                    let spp = kept.spp();
+                    if send.send(kept).is_ok() {
+                        report(Recalled::Continued(spp));
                     }
-                    Err(error) => report(Recalled::Unreadable(error.to_string())),
                 }
+                Err(error) => report(Recalled::Unreadable(error.to_string())),
             }
         };
         spawn("recall", look)?;

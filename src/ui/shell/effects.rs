@@ -229,14 +229,7 @@ impl Runtime {
             Effect::Halt(target) => self.with_renderer(target, Renderer::stop),
             Effect::Pause(target) => self.with_renderer(target, Renderer::pause),
             Effect::Resume(target) => self.with_renderer(target, Renderer::resume),
-            Effect::Derive(past) => {
-                let ticket = past.ticket;
-                let begun = self.history_scenes.ask(*past, self.work());
-                let refused = |ended: Ended| Err(NoPicture::Failed(ended.to_string()));
-                return Ok(begun
-                    .err()
-                    .map(|ended| Msg::Derived(ticket, refused(ended))));
-            }
+            Effect::Derive(past) => return Ok(self.derive(*past)),
             Effect::WriteImage(id, frame, to) => {
                 return Ok(not_exported(id, self.writers.export(id, frame, to)));
             }
@@ -304,6 +297,16 @@ impl Runtime {
             Effect::Quit => self.ended = true,
         }
         Ok(None)
+    }
+
+    /// Asks for the scene of a step of the history; returns the answer if it cannot be.
+    fn derive(&mut self, past: HistoryText) -> Option<Msg> {
+        let ticket = past.ticket;
+        let begun = self.history_scenes.ask(past, self.work());
+        let refused = |ended: Ended| Err(NoPicture::Failed(ended.to_string()));
+        begun
+            .err()
+            .map(|ended| Msg::Derived(ticket, refused(ended)))
     }
 
     /// Counts a request as work until its answer is in the inbox.

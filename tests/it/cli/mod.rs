@@ -84,6 +84,8 @@ impl Place {
         command
             .args(line.split_ascii_whitespace())
             .current_dir(self.directory.path())
+            // Renders may continue what the interface keeps there.
+            .env("XDG_STATE_HOME", self.at("state"))
             .stdin(Stdio::null());
         command
     }

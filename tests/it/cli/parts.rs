@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use halflight::file::Digest;
+
 use super::*;
 
 /// A scene with mirrors, shadows and glass, which the repository has a picture of.
@@ -339,6 +341,45 @@ fn an_interrupted_picture_is_continued_to_the_same_bytes() {
         }
     }
     assert!(place.read("a.bmp") == whole);
+}
+
+/// What the interface keeps of the same film, wherever it is further.
+#[test]
+fn a_render_takes_over_a_trace() {
+    let place = Place::new();
+    let options = "--size 60x40 --resume --spp";
+    place.rendered("a.png", &format!("{options} 4"));
+    let part = place.read("a.part");
+    let header = String::from_utf8_lossy(&part);
+    let (_, lines) = header.split_once('\n').expect("a header");
+    let (lines, _) = lines.split_once("shard ").expect("a header");
+    let digest = Digest::of([lines.as_bytes()]);
+    let traces = place.at("state/halflight/traces");
+    fs::create_dir_all(&traces).expect("the folder is new");
+    fs::rename(
+        place.at("a.part"),
+        traces.join(format!("{}.part", &digest[..32])),
+    )
+    .expect("it is there");
+    let said = place.stderr(&format!("render {SCENE} -o a.png {options} 16"), 0);
+    let takes_over = "a.part: takes over 4 blocks of the interface's full-size trace\n";
+    assert_eq!(said, format!("note: {takes_over}"));
+    assert!(place.read("a.png") == place.rendered("b.png", "--size 60x40 --spp 16"));
+    // Neither one that is behind nor one that has more samples than are asked for.
+    for (picture, spp) in [("a.png", 16), ("c.png", 2)] {
+        let said = place.stderr(&format!("render {SCENE} -o {picture} {options} {spp}"), 0);
+        assert_eq!(said, "");
+    }
+    // Another film, and a picture of what is known from tracing this one.
+    for (picture, other) in [("d.png", "--seed 1"), ("e.png", "--aov noise")] {
+        let line = format!("render {SCENE} -o {picture} {options} 4 {other}");
+        assert_eq!(place.stderr(&line, 0), "");
+    }
+    // What is wrong with it is said, and the picture is traced.
+    let trace = traces.join(format!("{}.part", &digest[..32]));
+    fs::write(trace, "halflight part 2\ndamaged").expect("it is ours");
+    let said = place.stderr(&format!("render {SCENE} -o f.png {options} 4"), 0);
+    assert!(said.starts_with("note: f.part: the full-size trace of an earlier run was damaged"));
 }
 
 /// All blocks stop long before the most samples there are.

@@ -58,7 +58,7 @@ fn a_full_size_trace_continues_in_the_next_run() {
         assert_eq!(kept(&place).len(), 1);
     }
 
-    fs::write(&kept(&place)[0], "halflight trace 2\ndamaged").expect("it is ours");
+    fs::write(&kept(&place)[0], "halflight part 2\ndamaged").expect("it is ours");
     let mut session = trace(&place);
     session.wait_for("the full-size trace of an earlier run was damaged");
     quit(session);

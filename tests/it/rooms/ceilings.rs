@@ -30,8 +30,6 @@ const LONG: &[(&str, usize)] = &[
     ("src/geometry/tests/quadrics.rs", 530),
     ("src/language/ray/tests/properties.rs", 508),
     ("src/language/tests/structure.rs", 563),
-    ("src/render/engine/film.rs", 532),
-    ("src/render/engine/tile.rs", 515),
     ("src/render/tests/edits.rs", 507),
     ("src/render/tests/paths.rs", 503),
     ("src/render/tests/photons.rs", 506),
@@ -40,22 +38,24 @@ const LONG: &[(&str, usize)] = &[
 /// The lines of code of each room over a thousand, without comments and tests, rounded up to hundreds.
 const ROOMS: &[(&str, usize)] = &[
     ("accel", 1900),
-    ("batch", 4100),
+    ("batch", 4200),
     ("cli", 1500),
     ("document", 1800),
     // The words and values of the interface's lines are here beside those of texts.
     ("explain", 1800),
-    ("file", 1600),
+    // The state folder, which the interface and renders share, came from the interface.
+    ("file", 1900),
     ("geometry", 5700),
     ("image_file", 1200),
-    ("language", 17700),
+    ("language", 17800),
     ("obj", 2200),
-    ("render", 16100),
+    ("part", 1300),
+    ("render", 16400),
     ("scene", 1300),
-    ("track", 1600),
+    ("track", 1700),
     // Each room lists what others may call, and each function the state it changes. Frames, base64 and
     // the nearest of few colours take a hundred lines, for ten dependencies.
-    ("ui", 30800),
+    ("ui", 30000),
 ];
 
 /// The most methods on the interface's state; everything else is a function in the room that does it.

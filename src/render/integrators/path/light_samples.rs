@@ -129,7 +129,7 @@ pub(crate) fn add_light<C>(
     let light = &world.lights()[number];
     let bounce = draws.node;
     // Only lights with a size need random numbers.
-    let numbers = if light_sphere(&light).is_some() {
+    let numbers = if light_sphere(light).is_some() {
         draws.four(Use::Light(number as u32), world.level)
     } else {
         &[]

@@ -98,7 +98,7 @@ fn of_light<C>(
     place: [f64; 2],
 ) -> Rgb {
     let light = &probe.world.lights()[number];
-    let unshadowed = match luminous_sphere(&light) {
+    let unshadowed = match luminous_sphere(light) {
         Some(sphere) => of_sphere_light(probe, (vertex, bounce), (light, &sphere), chance, place),
         None => of_point_light(vertex, light, place),
     };
@@ -125,7 +125,7 @@ fn of_light<C>(
 fn of_point_light(vertex: &Vertex<'_>, light: &Light, place: [f64; 2]) -> Option<Unshadowed> {
     let Vertex { point, bsdf, .. } = vertex;
     let from = point.surface.point;
-    let chosen = light_sphere(&light).and_then(|sphere| sphere.choose(from, place));
+    let chosen = light_sphere(light).and_then(|sphere| sphere.choose(from, place));
     let incoming = chosen.or_else(|| incoming(light, from.into()))?;
     let facing = Facing::new(&point.into(), light, incoming);
     if !facing.is_lit {

@@ -90,7 +90,7 @@ impl Wave<'_> {
                 seen[state.tree].radiance += hit.weight * hit.radiance;
             }
             let branching = material.filter(|material| {
-                let mirrored = mirror_weight(&material, hit_points.side(lane));
+                let mirrored = mirror_weight(material, hit_points.side(lane));
                 let branches = mirrored != Rgb::ZERO || material.dielectric.tint != Rgb::ZERO;
                 state.bounce != depth && branches
             });
@@ -136,7 +136,7 @@ impl<S: Simd> Specular<S> {
         let mut ratios = Row::all(1.0);
         for (lane, material) in materials.enumerate() {
             if let Some(material) = material {
-                let [from, to] = refraction_indices(&material, hit_points.side(lane));
+                let [from, to] = refraction_indices(material, hit_points.side(lane));
                 ratios.0[lane] = from / to;
             }
         }

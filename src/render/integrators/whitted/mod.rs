@@ -199,7 +199,7 @@ impl<'w> Wave<'w> {
         };
         let last = self.shaded.len().min(first + WIDTH);
         let hit = &mut self.shaded[first..last];
-        if let Some(sphere) = light_sphere(&light) {
+        if let Some(sphere) = light_sphere(light) {
             for (lane, (hit, state)) in hit.iter().zip(&self.front.states[first..]).enumerate() {
                 if let HitMaterial::Nothing = hit.material {
                     continue;
@@ -227,7 +227,7 @@ impl<'w> Wave<'w> {
                 hit_points.normal.get(lane).dot((toward + view).normalize())
             };
             let reflected = reflectance(
-                &material,
+                material,
                 facing.cosine[lane],
                 facing.mirrored[lane],
                 halfway,

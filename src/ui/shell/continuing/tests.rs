@@ -222,6 +222,37 @@ fn the_cost_is_seen_of_the_picture_of_light() {
     assert_eq!(test.recall("first").1, None);
 }
 
+/// Whether it has more or fewer samples than a trace.
+#[test]
+fn the_part_beside_the_picture_is_continued() {
+    use part::{Header, Part};
+    let test = Test::new();
+    let digest = FileDigests::of(&origin(&test.files, "").found);
+    let digest = digest.expect("it is there").fingerprint("first");
+    let write = |name: &str, depth: u32| {
+        let mut job = test.job.clone();
+        job.settings.depth = depth;
+        let header = Header {
+            picture: Provenance::of(&job, digest.clone()),
+            shard: Shard::WHOLE,
+        };
+        let part = Part::create(&test.files.path().join(name), &header);
+        let mut part = part.expect("it is new");
+        part.aim(4).expect("it is written");
+        for block in traced(&test.job).blocks() {
+            part.put(block).expect("it is written");
+        }
+    };
+    write("b.part", 4);
+    assert_eq!(test.recall("first").1, None, "it is beside another");
+    write("a.part", 4);
+    assert_eq!(test.recall("first").1, Some(Recalled::Continued(4)));
+    assert_eq!(test.recall("other").1, None, "the text is another");
+    fs::remove_file(test.files.path().join("a.part")).expect("it is there");
+    write("a.part", 5);
+    assert_eq!(test.recall("first").1, None, "the settings are others");
+}
+
 /// A trace that took seconds only is not worth a file.
 #[test]
 fn a_short_trace_is_not_kept() {
