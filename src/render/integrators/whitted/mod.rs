@@ -82,8 +82,7 @@ pub(crate) fn add_light<C>(
             wave.light_packet(simd, packet, (number, light), samples, seen);
         }
     });
-    let asking = wave.unblocked.len() as u64;
-    probe.counts.add_shadow_rays(asking);
+    probe.counts.add_shadow_rays(wave.unblocked.len() as u64);
     world.transmittance_each(
         &wave.shadows,
         Occlusion::ByMaterial,
@@ -91,16 +90,16 @@ pub(crate) fn add_light<C>(
         &mut probe.crossed,
         &mut wave.transmittances,
     );
-    let asking = wave.unblocked.iter().zip(&wave.transmittances);
-    for (&(ray, unblocked), &transmittance) in asking.clone() {
+    let shadow_rays = wave.unblocked.iter().zip(&wave.transmittances);
+    for (&(hit, unblocked), &transmittance) in shadow_rays.clone() {
         // Occluded light adds nothing, even if infinite.
         if transmittance != 0.0 {
-            wave.shaded[ray].radiance += transmittance * unblocked;
+            wave.shaded[hit].radiance += transmittance * unblocked;
         }
     }
     // Empty unless dependencies are recorded.
-    for ((&(ray, _), &transmittance), &touched) in asking.zip(&probe.crossed.touched) {
-        let seen = &mut seen[wave.front.states[ray].tree];
+    for ((&(hit, _), &transmittance), &touched) in shadow_rays.zip(&probe.crossed.touched) {
+        let seen = &mut seen[wave.front.states[hit].tree];
         seen.rays += 1;
         seen.touched |= touched;
         if transmittance != 0.0 {
