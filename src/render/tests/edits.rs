@@ -41,9 +41,7 @@ impl Easel {
 
     /// Continues with another job, reusing what it can.
     fn turn_to(&mut self, job: Job) {
-        let before = Some(&self.world);
-        let world = built(&job, before);
-        let world = world.expect("nothing cancels");
+        let world = built(&job, Some(&self.world)).expect("nothing cancels");
         let changed = difference((&self.job, &self.world), (&job, &world));
         let film = Film::new(&job.settings, job.frames, job.denoise).expect("memory is there");
         let old = std::mem::replace(&mut self.film, film).keep(Duration::ZERO);
@@ -70,10 +68,8 @@ impl Easel {
             if self.film.select(&step) == 0.0 {
                 break;
             }
-            let tiles = 0..self.film.tiles();
-            let counts = self
-                .film
-                .advance(tiles, (&step, step.indices()), &shot, &cancelled);
+            let (tiles, part) = (0..self.film.tiles(), (&step, step.indices()));
+            let counts = self.film.advance(tiles, part, &shot, &cancelled);
             self.counts = self.counts.and(counts);
             if cancelled() {
                 return false;

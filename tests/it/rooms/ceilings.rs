@@ -30,7 +30,7 @@ const LONG: &[(&str, usize)] = &[
     ("src/geometry/tests/quadrics.rs", 530),
     ("src/language/ray/tests/properties.rs", 508),
     ("src/language/tests/structure.rs", 563),
-    ("src/render/tests/edits.rs", 507),
+    ("src/render/tests/edits.rs", 503),
     ("src/render/tests/paths.rs", 503),
     ("src/render/tests/photons.rs", 506),
 ];
