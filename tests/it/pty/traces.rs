@@ -27,10 +27,10 @@ fn kept(place: &Place) -> Vec<PathBuf> {
 fn a_full_size_trace_continues_in_the_next_run() {
     let place = Place::new();
     let mut session = trace(&place);
-    // Not the estimate of what is left; and seconds are rounded.
+    // Not the estimate of what is left, nor samples; and seconds are rounded.
     session.wait("waiting for more than ten seconds", |screen| {
         let contents = screen.contents();
-        (11..30).any(|seconds| contents.contains(&format!("· {seconds} s")))
+        (11..30).any(|seconds| contents.contains(&format!("· {seconds} s ·")))
     });
     session.send("q");
     session.end();
