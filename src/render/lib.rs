@@ -7,10 +7,12 @@
 //!
 //! # The rooms, from the bottom up
 //!
-//! A room uses those above it in this table, and no other; its `mod.rs` lists what they may use.
+//! A room uses those above it in this table, and no other. Its `mod.rs` lists what the others may use of
+//! it. The first, a file of its own, chooses among the processor's vector instructions.
 //!
 //! | room | holds |
 //! |---|---|
+//! | [`simd_level`] | the vector instructions that tracing uses |
 //! | [`sampling`] | random numbers, and their mappings to pixels and directions; multiple importance sampling |
 //! | [`material`] | what a surface does with light: textures, Whitted shading, lobes, mirrors and boundaries |
 //! | [`light`] | what sends light: lights, objects that emit, the environment |

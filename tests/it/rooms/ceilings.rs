@@ -43,7 +43,7 @@ const ROOMS: &[(&str, usize)] = &[
     ("document", 1800),
     // The words and values of the interface's lines are here beside those of texts.
     ("explain", 1800),
-    // The state folder, which the interface and renders share, came from the interface.
+    // It holds the state folder, which the interface and renders share.
     ("file", 1900),
     ("geometry", 5700),
     ("image_file", 1200),
