@@ -306,7 +306,7 @@ pub trait Editable: Debug {
     fn revert(&mut self, inverse: &[Edit]);
 }
 
-/// What every language answers about a scene's text. Places are as of the last lowering, and
+/// The text of a scene, in whatever language. Places are as of the last lowering, and
 /// complete up to where the text could be understood.
 pub trait SceneText: Editable + StructureEdits {
     /// Lowers the text, with the meshes read so far, and finds the places of its nodes. Reports all

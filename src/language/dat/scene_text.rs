@@ -1,4 +1,4 @@
-//! The answers of a `.dat` text.
+//! What a `.dat` text says: its [`SceneText`].
 
 use std::collections::BTreeSet;
 

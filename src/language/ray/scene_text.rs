@@ -1,4 +1,4 @@
-//! The answers of a `.ray` text.
+//! What a `.ray` text says: its [`SceneText`].
 
 use super::origins::distribute;
 use super::table::{AMBIENT, LIGHT};

@@ -1,4 +1,4 @@
-//! The answers of an `.xml` text.
+//! What an `.xml` text says: its [`SceneText`].
 
 use std::borrow::Cow;
 use std::collections::HashSet;

@@ -47,9 +47,12 @@ const ROOMS: &[(&str, usize)] = &[
     ("file", 1900),
     ("geometry", 5700),
     ("image_file", 1200),
+    // Names that say more break more lines.
     ("language", 17800),
     ("obj", 2200),
+    // It keeps the traces of the interface, too.
     ("part", 1300),
+    // Each of its rooms lists what others may use, and films give and take blocks.
     ("render", 16400),
     ("scene", 1300),
     ("track", 1700),
