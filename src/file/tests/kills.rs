@@ -11,7 +11,7 @@ use crate::faults::{Fault, during};
 const ORDER: &str = "HALFLIGHT_TEST_KILL";
 
 /// The path of the test below, which the other process runs with an order.
-const TEST: &str = "file::tests::kills::a_killed_process_leaves_the_old_or_the_new_content";
+const TEST: &str = "tests::kills::a_killed_process_leaves_the_old_or_the_new_content";
 
 /// Carries out an order, in the process to be killed.
 fn obey(order: &str) {
