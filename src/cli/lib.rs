@@ -292,6 +292,7 @@ impl Stop {
 /// A progressive ray tracer that lives in the terminal.
 #[derive(Debug, Parser)]
 #[command(
+    name = "halflight",
     version,
     after_help = EXAMPLES,
     args_conflicts_with_subcommands = true
