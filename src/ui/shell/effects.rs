@@ -300,7 +300,7 @@ impl Runtime {
     }
 
     /// Asks for the scene of a step of the history; returns the answer if it cannot be.
-    fn derive(&mut self, past: HistoryText) -> Option<Msg> {
+    fn derive(&self, past: HistoryText) -> Option<Msg> {
         let ticket = past.ticket;
         let begun = self.history_scenes.ask(past, self.work());
         let refused = |ended: Ended| Err(NoPicture::Failed(ended.to_string()));
