@@ -359,6 +359,7 @@ fn the_manual_lists_keys_commands_and_exit_codes() {
     let words: Vec<_> = page.split_whitespace().collect();
     let page = words.join(" ");
     for listed in [
+        "NAME halflight - ",
         "select K reorder-up move up in the list",
         ":size WxH set the picture size in the scene",
         "Exit codes: 0 ",
