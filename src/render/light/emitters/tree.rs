@@ -250,7 +250,7 @@ impl Tree {
         (0.0 < share).then(|| (self.order[place], search.chance * share))
     }
 
-    /// The probability of [`Tree::choose`] for an emitter.
+    /// The probability with which an emitter is chosen.
     pub(crate) fn chance(&self, emitter: u32, from: DVec3, normal: DVec3) -> f64 {
         let place = self.places[emitter as usize] as usize;
         let mut at = (0, 0);
