@@ -36,7 +36,7 @@ pub(super) struct Place {
 }
 
 impl Contents {
-    /// Those of a file that holds a header only, which ends there.
+    /// The contents of a file that ends after its header.
     pub(super) fn none(file: File, header: Header, header_crc: u32, end: u64) -> Self {
         Self {
             file,

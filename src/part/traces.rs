@@ -30,7 +30,7 @@ const DIGITS: usize = 32;
 /// The end of the names of traces of earlier forms.
 const OLD_END: &str = ".trace";
 
-/// Files that were to become traces are removed after this time, which none takes to write.
+/// Unfinished files are removed after this time; writing one takes far less.
 const LEFT_BEHIND: Duration = Duration::from_secs(3600);
 
 /// The most files, and the most bytes of all of them; the newest alone may have more.
@@ -100,8 +100,8 @@ impl Traces {
         Ok(())
     }
 
-    /// The trace that was kept of the film of a picture, if there is one. Pictures of what is known from
-    /// tracing light have none. Removes a damaged one.
+    /// The trace that was kept of the film of a picture, if there is one. Pictures of noise, cost and
+    /// samples have none. Removes a damaged one.
     pub fn find(&self, picture: &Provenance) -> Result<Option<Contents>, NoTrace> {
         if !picture.is_of_film() {
             return Ok(None);

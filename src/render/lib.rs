@@ -7,8 +7,8 @@
 //!
 //! # The rooms, from the bottom up
 //!
-//! A room uses those above it in this table, and no other. Its `mod.rs` lists what the others may use of
-//! it. The first, a file of its own, chooses among the processor's vector instructions.
+//! A room uses those above it in this table, and no others. Its `mod.rs` lists what the rooms below it
+//! may use.
 //!
 //! | room | holds |
 //! |---|---|
@@ -25,16 +25,15 @@
 //!
 //! # The way of a picture
 //!
-//! A [`Renderer`] hands a job to its worker, which builds a [`world`] and, pass by
-//! pass (`tracing`), fills the tiles of a film in
-//! steps. A context makes the camera samples, a
-//! tracer their radiance. [Tone mapping](picture::tone) makes a frame of the
-//! film. A [`BlockTracer`] does the same block by block, for an [`Assembly`] put together later, on
-//! other machines too.
+//! A [`Renderer`] hands a job to its worker (`engine/worker.rs`), which builds a [`world`] and fills the
+//! tiles of a film pass by pass (`engine/tracing.rs`, `engine/film.rs`). A frame context generates the
+//! camera samples, and a tracer computes their radiance. [Tone mapping](picture::tone) turns the film
+//! into a frame. A [`BlockTracer`] does the same block by block, for an [`Assembly`] that is put
+//! together later, perhaps on another machine.
 //!
-//! Pixels of live pictures record their dependencies: after an edit of a
-//! material or of a light's colour the film is reused, and only pixels that depend on the
-//! difference are traced again.
+//! Pixels of live pictures record their dependencies (`world/dependencies.rs`): after an edit of a
+//! material or of a light's colour the film is reused, and only the pixels that depend on what changed
+//! (`engine/difference.rs`) are traced again.
 //!
 //! Dropping a renderer ends its work soon, however large the picture: cancellation is polled every
 //! few milliseconds, and a film's memory is first touched while tracing and freed by the pool.

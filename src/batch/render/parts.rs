@@ -136,7 +136,7 @@ impl PartFile {
                 Ok(taken) => {
                     let taken = counted(taken, "block");
                     note(&format!(
-                        "takes over {taken} of the interface's full-size trace"
+                        "continues {taken} of the interface's full-size trace"
                     ));
                 }
                 Err(reason) => note(&reason.to_string()),
@@ -193,7 +193,7 @@ pub(super) struct Opened {
     signals: Signals,
     means: Means,
     begun: Instant,
-    /// The time spent by processes before.
+    /// The time that earlier processes spent.
     spent: Duration,
     /// Rays traced.
     counts: Counts,

@@ -115,7 +115,7 @@ fn check_outputs(work: &PictureWork) -> Result<Option<PartFile>, Error> {
     Ok(Some(part))
 }
 
-/// The error of a size in a text that a format has not.
+/// The error for a size in a scene that the format cannot hold.
 fn no_such_size(span: Span, reason: &str) -> Diagnostic {
     let message = format!("view size {reason}");
     Diagnostic::error(span, message, "a smaller size").with_hint("or override it: --size WxH")

@@ -79,7 +79,7 @@ impl Sequence {
         })
     }
 
-    /// By what the frames are traced.
+    /// How the frames are traced.
     pub(super) fn means(&self) -> Means {
         self.tracing.means
     }

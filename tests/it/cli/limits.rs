@@ -66,7 +66,7 @@ fn work_under_any_memory_limit_succeeds_or_is_refused() {
         let output = in_shell(&place, &format!("ulimit -v {limit}"), "--version");
         output.status.success()
     };
-    // In kilobytes, from what the program alone takes to more than enough for the text.
+    // In kilobytes, from what it takes to load the program to more than the scene needs.
     let mut limits = (1..100).map(|limit| limit * 1000);
     let least = limits.find(loads).expect("the program can be loaded");
     for limit in (least..=least + 88_000).step_by(8000) {

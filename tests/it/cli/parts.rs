@@ -345,7 +345,7 @@ fn an_interrupted_picture_is_continued_to_the_same_bytes() {
 
 /// What the interface keeps of the same film, wherever it is further.
 #[test]
-fn a_render_takes_over_a_trace() {
+fn a_render_continues_a_trace() {
     let place = Place::new();
     let options = "--size 60x40 --resume --spp";
     place.rendered("a.png", &format!("{options} 4"));
@@ -362,8 +362,8 @@ fn a_render_takes_over_a_trace() {
     )
     .expect("it is there");
     let said = place.stderr(&format!("render {SCENE} -o a.png {options} 16"), 0);
-    let takes_over = "a.part: takes over 4 blocks of the interface's full-size trace\n";
-    assert_eq!(said, format!("note: {takes_over}"));
+    let continues = "a.part: continues 4 blocks of the interface's full-size trace\n";
+    assert_eq!(said, format!("note: {continues}"));
     assert!(place.read("a.png") == place.rendered("b.png", "--size 60x40 --spp 16"));
     // Neither one that is behind nor one that has more samples than are asked for.
     for (picture, spp) in [("a.png", 16), ("c.png", 2)] {

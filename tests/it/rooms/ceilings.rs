@@ -47,10 +47,10 @@ const ROOMS: &[(&str, usize)] = &[
     ("file", 1900),
     ("geometry", 5700),
     ("image_file", 1200),
-    // Names that say more break more lines.
+    // Longer names wrap more lines.
     ("language", 17800),
     ("obj", 2200),
-    // It keeps the traces of the interface, too.
+    // It also holds the traces of the interface.
     ("part", 1300),
     // Each of its rooms lists what others may use, and films give and take blocks.
     ("render", 16400),
