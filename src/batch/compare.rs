@@ -246,5 +246,5 @@ fn object(work: &Compare, found: &Result<Comparison, SizesDiffer>, verdict: Verd
 
 fn draw(path: &Path, format: ImageFormat, size: Size, pixels: Vec<[u8; 3]>) -> Result<(), Error> {
     let frame = Frame::drawn(size, pixels);
-    Output::File(path.to_owned()).write(|out| format.write(Picture::of(&frame), out))
+    Output::File(path.to_owned()).write(&mut |out| format.write(Picture::of(&frame), out))
 }

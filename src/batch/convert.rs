@@ -47,7 +47,7 @@ fn try_convert(work: &Convert) -> Result<(), Error> {
         0 => {}
         errors => return Err(Error::Unconverted { errors }),
     }
-    work.output.write(|out| out.write_all(text.as_bytes()))
+    work.output.write(&mut |out| out.write_all(text.as_bytes()))
 }
 
 fn has_same_bytes(one: &Path, other: &Path) -> bool {

@@ -1,9 +1,10 @@
 //! Where headless work writes to.
 
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use super::{Error, stdout};
+use file::Content;
 use image_file::{ImageFormat, Picture};
 
 /// A file or standard output.
@@ -28,7 +29,8 @@ pub struct Target {
 
 impl Target {
     pub(super) fn write(&self, picture: Picture<'_>) -> Result<(), Error> {
-        self.output.write(|out| self.format.write(picture, out))
+        self.output
+            .write(&mut |out| self.format.write(picture, out))
     }
 }
 
@@ -86,12 +88,9 @@ impl Output {
     }
 
     /// Writes. A reader that closes the pipe early is not an error.
-    pub(super) fn write(
-        &self,
-        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<(), Error> {
+    pub(super) fn write(&self, write: &mut Content<'_>) -> Result<(), Error> {
         let written = match self {
-            Self::File(path) => file::deliver(path, write, || Ok(())).map(drop),
+            Self::File(path) => file::deliver(path, write, &|| Ok(())).map(drop),
             Self::Stdout | Self::StdoutTerminal => stdout::write(write),
         };
         written.or_else(|source| match (source.kind(), self) {

@@ -52,7 +52,7 @@ impl Stats<'_> {
     /// Writes the figures.
     pub(super) fn write(&self, output: &Output) -> Result<(), Error> {
         let text = format!("{:#}\n", self.object());
-        output.write(|out| out.write_all(text.as_bytes()))
+        output.write(&mut |out| out.write_all(text.as_bytes()))
     }
 
     /// The keys are part of the interface of the command. Times are in seconds, memory in bytes; what

@@ -3,6 +3,7 @@
 use std::io::{self, BufWriter, IsTerminal, Write};
 
 use super::Error;
+use file::Content;
 
 /// Bytes written at once. `Stdout` flushes at every byte that looks like a line break, but passes
 /// on writes longer than its own buffer in one or two pieces.
@@ -25,7 +26,7 @@ pub(super) fn check() -> io::Result<()> {
 }
 
 /// Writes to standard output in long pieces.
-pub(super) fn write(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+pub(super) fn write(write: &mut Content<'_>) -> io::Result<()> {
     let mut out = BufWriter::with_capacity(CHUNK, io::stdout().lock());
     write(&mut out)?;
     out.flush()

@@ -30,7 +30,7 @@ pub use backup::{backups, interruption};
 pub use current::{absolute, has_folder, regain_folder};
 pub use digest::Digest;
 pub use lock::{Lock, lock};
-pub use replace::{deliver, replace};
+pub use replace::{Content, deliver, replace};
 pub use target::end_of_links;
 pub use target::{check_replaceable, check_target, directory_of, is_same_target, no_such_folder};
 pub use version::{FileId, Version};

@@ -24,6 +24,9 @@ const LOCK_RETRY: Duration = Duration::from_millis(20);
 /// The size of the write buffer in bytes: pictures arrive in rows of a few hundred.
 const CHUNK: usize = 1 << 18;
 
+/// Writes what a file is to hold. As a trait object, so that writing is compiled only once.
+pub type Content<'w> = dyn FnMut(&mut dyn Write) -> io::Result<()> + 'w;
+
 /// Replaces or creates a file, so that at any moment it holds either the old or the complete new
 /// content. Follows symbolic links; keeps mode, owner and extended attributes. Fails if the target
 /// is not a file.
@@ -41,8 +44,8 @@ const CHUNK: usize = 1 << 18;
 /// folder removes temporary files that a crash left behind.
 pub fn replace<E: From<io::Error>>(
     path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    confirm: impl Fn() -> Result<(), E>,
+    write: &mut Content<'_>,
+    confirm: &dyn Fn() -> Result<(), E>,
 ) -> Result<(), E> {
     match Target::of(path)? {
         Target::Stream(_, kind) => Err(not_a_file(kind).into()),
@@ -54,8 +57,8 @@ pub fn replace<E: From<io::Error>>(
 /// a pipe without a reader. Returns the version of the written file, `None` for pipes and devices.
 pub fn deliver<E: From<io::Error>>(
     path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    confirm: impl Fn() -> Result<(), E>,
+    write: &mut Content<'_>,
+    confirm: &dyn Fn() -> Result<(), E>,
 ) -> Result<Option<Version>, E> {
     match Target::of(path)? {
         Target::Stream(path, _) => {
@@ -71,8 +74,8 @@ pub fn deliver<E: From<io::Error>>(
 
 fn put<E: From<io::Error>>(
     target: &Target,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    confirm: impl Fn() -> Result<(), E>,
+    write: &mut Content<'_>,
+    confirm: &dyn Fn() -> Result<(), E>,
 ) -> Result<Option<Version>, E> {
     match target {
         Target::New(path) => {
@@ -114,10 +117,7 @@ fn version_of(file: &File) -> Option<Version> {
 }
 
 /// Writes the content to a file and syncs it.
-fn filled(
-    file: Temporary,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<Temporary> {
+fn filled(file: Temporary, write: &mut Content<'_>) -> io::Result<Temporary> {
     let mut out = BufWriter::with_capacity(CHUNK, file.content());
     let written = write(&mut out).and_then(|()| out.flush());
     // After an error the rest of the buffer is not written.
@@ -156,8 +156,8 @@ fn is_hard_linked(_metadata: &Metadata) -> bool {
 
 fn overwrite<E: From<io::Error>>(
     path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    confirm: impl Fn() -> Result<(), E>,
+    write: &mut Content<'_>,
+    confirm: &dyn Fn() -> Result<(), E>,
 ) -> Result<Option<Version>, E> {
     let mut content = Vec::new();
     write(&mut content)?;

@@ -33,11 +33,11 @@ fn names(directory: &Path) -> Vec<String> {
 }
 
 fn replace_with(path: &Path, content: &str) -> io::Result<()> {
-    replace_as(path, |out| out.write_all(content.as_bytes()))
+    replace_as(path, &mut |out| out.write_all(content.as_bytes()))
 }
 
-fn replace_as(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    replace(path, write, || Ok(()))
+fn replace_as(path: &Path, write: &mut Content<'_>) -> io::Result<()> {
+    replace(path, write, &|| Ok(()))
 }
 
 fn content(path: &Path) -> String {
@@ -124,7 +124,7 @@ fn a_failed_write_leaves_the_old_content() {
     let directory = directory();
     let path = directory.path().join("s");
     let fail_midway = || {
-        replace_as(&path, |out| {
+        replace_as(&path, &mut |out| {
             out.write_all(&vec![b'x'; 100_000])?;
             Err(io::ErrorKind::StorageFull.into())
         })
@@ -144,12 +144,12 @@ fn permission_to_replace_is_asked_after_the_content_is_written() {
     fs::write(&path, "old").expect("written");
     let refused = replace(
         &path,
-        |out| {
+        &mut |out| {
             out.write_all(b"ours")?;
             // Another program writes meanwhile.
             fs::write(&path, "theirs")
         },
-        || match content(&path).as_str() {
+        &|| match content(&path).as_str() {
             "old" => Ok(()),
             _ => Err(io::Error::other("changed")),
         },
@@ -313,7 +313,9 @@ mod unix {
                     fs::write(&path, "old").expect("written");
                     fs::hard_link(&path, directory.path().join("t")).expect("linked");
                 }
-                let written = deliver(&path, |out| out.write_all(b"new"), || io::Result::Ok(()));
+                let written = deliver(&path, &mut |out| out.write_all(b"new"), &|| {
+                    io::Result::Ok(())
+                });
                 let version = written.expect("written").expect("a file");
                 change(&path);
                 let found = Version::of(&path).ok();
@@ -343,7 +345,7 @@ mod unix {
             assert_eq!(fs::metadata(&two).expect("there").ino(), inode);
             assert_eq!(names(directory.path()), ["one", "two"]);
         }
-        let failed = replace_as(&one, |out| {
+        let failed = replace_as(&one, &mut |out| {
             out.write_all(b"half")?;
             Err(io::ErrorKind::StorageFull.into())
         });
@@ -361,7 +363,10 @@ mod unix {
     }
 
     fn deliver_to(path: &Path, content: &str) -> io::Result<()> {
-        deliver(path, |out| out.write_all(content.as_bytes()), || Ok(())).map(drop)
+        deliver(path, &mut |out| out.write_all(content.as_bytes()), &|| {
+            Ok(())
+        })
+        .map(drop)
     }
 
     #[test]
@@ -411,20 +416,16 @@ mod unix {
         let path = directory.path().join("s");
         let calls = std::cell::Cell::new(0);
         let replace_after = |allowed: usize| {
-            replace(
-                &path,
-                |out| out.write_all(b"ours"),
-                || {
-                    // Another program writes just before the name is taken.
-                    fs::write(&path, "theirs")?;
-                    calls.set(calls.get() + 1);
-                    if calls.get() <= allowed {
-                        Ok(())
-                    } else {
-                        Err(io::Error::other("exists"))
-                    }
-                },
-            )
+            replace(&path, &mut |out| out.write_all(b"ours"), &|| {
+                // Another program writes just before the name is taken.
+                fs::write(&path, "theirs")?;
+                calls.set(calls.get() + 1);
+                if calls.get() <= allowed {
+                    Ok(())
+                } else {
+                    Err(io::Error::other("exists"))
+                }
+            })
         };
         let refused = replace_after(1).expect_err("it exists by then");
         assert_eq!(refused.to_string(), "exists");

@@ -15,6 +15,7 @@ use exr::meta::header::Header;
 use exr::prelude::{Vec2, read};
 use image::{DynamicImage, Rgb32FImage};
 
+use super::input::Input;
 use super::unreadable::{MAX_MEMORY, Unreadable, check_room, check_size, unsupported};
 use scene::{Image, Size};
 
@@ -36,7 +37,7 @@ enum Channels {
 }
 
 /// Reads a picture with at most `room` pixels.
-pub(super) fn read_colours(file: &mut (impl Read + Seek), room: u64) -> Result<Image, Unreadable> {
+pub(super) fn read_colours(file: &mut dyn Input, room: u64) -> Result<Image, Unreadable> {
     let reader = block::read(BufReader::new(file), false).map_err(|error| unreadable(&error))?;
     let (header, channels) = chosen(reader.headers())?;
     if matches!(

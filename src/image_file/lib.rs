@@ -3,6 +3,7 @@
 
 mod exr;
 mod exr_colours;
+mod input;
 mod metadata;
 mod movie;
 mod pattern;

@@ -6,6 +6,7 @@ use std::panic::{self, AssertUnwindSafe};
 use exr::meta::MetaData;
 use exr::meta::attribute::AttributeValue;
 
+use super::input::Input;
 use super::{MAX_PIXELS, Unreadable};
 use render::{Provenance, Record};
 
@@ -31,7 +32,11 @@ pub(super) fn text(provenance: &Provenance) -> String {
 /// # Errors
 ///
 /// Fails if it is neither a PNG nor an EXR, or damaged before its pixels.
-pub fn record(file: impl Read + Seek) -> Result<Option<Record>, Unreadable> {
+pub fn record(mut file: impl Read + Seek) -> Result<Option<Record>, Unreadable> {
+    record_in(&mut file)
+}
+
+pub(super) fn record_in(file: &mut dyn Input) -> Result<Option<Record>, Unreadable> {
     // As for pixels, decoders run on untrusted bytes.
     let read = panic::catch_unwind(AssertUnwindSafe(|| stored_text(file)));
     let text = read.unwrap_or_else(|_| Err(Unreadable::Broken("its decoder failed".to_owned())))?;
@@ -44,9 +49,9 @@ pub fn record(file: impl Read + Seek) -> Result<Option<Record>, Unreadable> {
     Ok(text.map(read).filter(says_something))
 }
 
-fn stored_text(mut file: impl Read + Seek) -> Result<Option<String>, Unreadable> {
+fn stored_text(file: &mut dyn Input) -> Result<Option<String>, Unreadable> {
     let mut magic = Vec::new();
-    let read = (&mut file).take(PNG.len() as u64).read_to_end(&mut magic);
+    let read = Read::take(&mut *file, PNG.len() as u64).read_to_end(&mut magic);
     read.and_then(|_| file.rewind()).map_err(broken)?;
     let file = BufReader::new(file);
     if magic == PNG {

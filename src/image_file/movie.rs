@@ -47,24 +47,29 @@ impl MovieFormat {
 }
 
 /// Writes pictures of the same size one after the other.
-pub struct MovieWriter<W: Write> {
+pub struct MovieWriter<'w> {
     size: Size,
     /// Pictures per second.
     rate: u32,
     /// The number of pictures added.
     added: u32,
-    out: Encoder<W>,
+    out: Encoder<'w>,
 }
 
-enum Encoder<W: Write> {
-    Y4m(W),
-    Gif(Box<GifEncoder<W>>),
+enum Encoder<'w> {
+    Y4m(&'w mut dyn Write),
+    Gif(Box<GifEncoder<&'w mut dyn Write>>),
 }
 
-impl<W: Write> MovieWriter<W> {
+impl<'w> MovieWriter<'w> {
     /// Begins a file of pictures of this size, shown at this rate per second, which the format must
     /// not [refuse](MovieFormat::refuses).
-    pub fn new(format: MovieFormat, size: Size, rate: u32, mut out: W) -> io::Result<Self> {
+    pub fn new(
+        format: MovieFormat,
+        size: Size,
+        rate: u32,
+        out: &'w mut dyn Write,
+    ) -> io::Result<Self> {
         let out = match format {
             MovieFormat::Y4m => {
                 let Size { width, height } = size;
@@ -118,7 +123,7 @@ impl<W: Write> MovieWriter<W> {
     /// Passes on what is buffered.
     pub fn finish(self) -> io::Result<()> {
         match self.out {
-            Encoder::Y4m(mut out) => out.flush(),
+            Encoder::Y4m(out) => out.flush(),
             // It writes the end of the file when it is dropped.
             Encoder::Gif(_) => Ok(()),
         }

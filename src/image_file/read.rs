@@ -9,6 +9,7 @@ use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, Imag
 use image::{Limits, Rgba};
 
 use super::exr_colours::read_colours;
+use super::input::Input;
 use super::sieve::Sieve;
 use super::unreadable::{MAX_MEMORY, Unreadable, check_room, check_size, unsupported};
 use scene::{Image, Size};
@@ -21,25 +22,29 @@ const MAX_HEADER: u64 = 16 << 20;
 /// pixels than `room`, or if a JPEG has more than eight bytes per pixel plus 1 MiB, not counting
 /// segments that the pixels do not need. Memory is taken for the pixels and for what the decoder
 /// keeps of the file, which is all of a JPEG.
-pub fn decode(file: impl Read + Seek, room: u64) -> Result<Image, Unreadable> {
+pub fn decode(mut file: impl Read + Seek, room: u64) -> Result<Image, Unreadable> {
+    decode_input(&mut file, room)
+}
+
+pub(super) fn decode_input(file: &mut dyn Input, room: u64) -> Result<Image, Unreadable> {
     // Third-party decoders run on untrusted bytes: if one panics, only the picture is lost.
     let decoded = panic::catch_unwind(AssertUnwindSafe(|| by_format(file, room)));
     decoded.unwrap_or_else(|_| Err(Unreadable::Broken("its decoder failed".to_owned())))
 }
 
 /// Whether a picture file holds floating-point values.
-pub(super) fn holds_light(file: &mut (impl Read + Seek)) -> Result<bool, Unreadable> {
+pub(super) fn holds_light(file: &mut dyn Input) -> Result<bool, Unreadable> {
     let format = format(file)?;
     Ok(matches!(format, ImageFormat::OpenExr | ImageFormat::Hdr))
 }
 
 /// The format, by the first bytes; the file stays where it is.
-fn format(file: &mut (impl Read + Seek)) -> Result<ImageFormat, Unreadable> {
+fn format(file: &mut dyn Input) -> Result<ImageFormat, Unreadable> {
     /// The length of the longest magic number of any format.
     const MAGIC: u64 = 16;
     let unreadable = |error: std::io::Error| Unreadable::Broken(error.to_string());
     let mut magic = Vec::new();
-    let length = file.by_ref().take(MAGIC).read_to_end(&mut magic);
+    let length = Read::take(&mut *file, MAGIC).read_to_end(&mut magic);
     let back = -(length.map_err(unreadable)? as i64);
     file.seek_relative(back).map_err(unreadable)?;
     // Whatever program is named after `#?` wrote the same format.
@@ -49,21 +54,16 @@ fn format(file: &mut (impl Read + Seek)) -> Result<ImageFormat, Unreadable> {
     image::guess_format(&magic).map_err(|_| Unreadable::Unknown)
 }
 
-fn by_format(mut file: impl Read + Seek, room: u64) -> Result<Image, Unreadable> {
-    let format = format(&mut file)?;
+fn by_format(file: &mut dyn Input, room: u64) -> Result<Image, Unreadable> {
+    let format = format(file)?;
     match format {
         ImageFormat::Hdr => pixels(&mut Sieve::hdr(file), format, room),
-        ImageFormat::OpenExr => read_colours(&mut file, room),
+        ImageFormat::OpenExr => read_colours(file, room),
         ImageFormat::Png => pixels(&mut Sieve::png(file), format, room),
         ImageFormat::Jpeg => pixels(&mut Sieve::jpeg(file), format, room),
-        _ => pixels(&mut file, format, room),
+        _ => pixels(file, format, room),
     }
 }
-
-/// A file, whole or filtered. As a trait object, so that all decoders are compiled only once.
-trait Input: Read + Seek {}
-
-impl<R: Read + Seek> Input for R {}
 
 fn pixels(file: &mut dyn Input, format: ImageFormat, room: u64) -> Result<Image, Unreadable> {
     let broken = |error| unreadable(error, format);

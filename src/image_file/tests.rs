@@ -336,7 +336,7 @@ fn the_extension_determines_the_format_in_any_case() {
 fn an_unknown_extension_is_refused_with_the_known_ones() {
     let directory = tempfile::tempdir().expect("a directory for a test");
     let path = directory.path().join("a.webp");
-    let saved: io::Result<_> = save(Picture::of(&frame(1, 1, &[RED])), &path, || Ok(()));
+    let saved: io::Result<_> = save(Picture::of(&frame(1, 1, &[RED])), &path, &|| Ok(()));
     let error = saved.expect_err("unknown").to_string();
     assert!(error.starts_with("picture files end in .bmp, .ppm, .png, .tiff"));
     assert!(!path.exists());
@@ -350,7 +350,7 @@ fn a_picture_is_whole_whichever_call_fails() {
     let path = directory.path().join("a.png");
     let (old, new) = (frame(1, 1, &[RED]), frame(2, 1, &[RED, RED]));
     let write =
-        |frame: &Frame| -> io::Result<()> { save(Picture::of(frame), &path, || Ok(())).map(drop) };
+        |frame: &Frame| -> io::Result<()> { save(Picture::of(frame), &path, &|| Ok(())).map(drop) };
     let bytes = |frame: &Frame| {
         write(frame).expect("no errors or warnings");
         std::fs::read(&path).expect("a file")

@@ -172,7 +172,7 @@ fn write_png(picture: Picture<'_>, out: &mut impl Write) -> Result<(), png::Enco
 pub fn save<E: From<io::Error>>(
     picture: Picture<'_>,
     path: &Path,
-    confirm: impl Fn() -> Result<(), E>,
+    confirm: &dyn Fn() -> Result<(), E>,
 ) -> Result<Option<Version>, E> {
     let format = ImageFormat::of_path(path).ok_or_else(|| {
         io::Error::new(
@@ -180,5 +180,5 @@ pub fn save<E: From<io::Error>>(
             format!("picture files end in {}", known_extensions()),
         )
     })?;
-    file::deliver(path, |out| format.write(picture, out), confirm)
+    file::deliver(path, &mut |out| format.write(picture, out), confirm)
 }

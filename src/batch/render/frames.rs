@@ -50,7 +50,7 @@ pub(super) fn numbered(mut plan: NumberedPlan) -> Result<(), Error> {
             provenance: Some(&provenance.in_frame(&frame)),
         };
         let mut bytes = Vec::new();
-        Output::File(path.clone()).write(|out| {
+        Output::File(path.clone()).write(&mut |out| {
             plan.format.write(picture, &mut bytes)?;
             out.write_all(&bytes)
         })?;
@@ -64,7 +64,7 @@ pub(super) fn numbered(mut plan: NumberedPlan) -> Result<(), Error> {
 pub(super) fn movie(mut plan: MoviePlan) -> Result<(), Error> {
     let mut failed = None;
     let to = plan.to.clone();
-    let written = to.write(|out| {
+    let written = to.write(&mut |out| {
         write_movie(&mut plan, out).map_err(|failure| match failure {
             Failure::Writing(error) => error,
             Failure::Rendering(error) => {

@@ -17,11 +17,11 @@ fn of_two_writers_each_sees_what_the_one_before_has_written() {
     thread::scope(|scope| {
         let second = scope.spawn(move || {
             started.recv().expect("the first looks");
-            let write = |out: &mut dyn Write| {
+            let mut write = |out: &mut dyn Write| {
                 begin.send(()).expect("the first waits");
                 out.write_all(b"second")
             };
-            replace(path, write, || Err(io::Error::other(content(path))))
+            replace(path, &mut write, &|| Err(io::Error::other(content(path))))
         });
         let looks = || {
             let file = File::open(path).expect("a file");
@@ -30,7 +30,7 @@ fn of_two_writers_each_sees_what_the_one_before_has_written() {
             begun.recv().expect("the second begins");
             Ok::<_, io::Error>(())
         };
-        replace(path, |out| out.write_all(b"first"), looks).expect("nobody else writes");
+        replace(path, &mut |out| out.write_all(b"first"), &looks).expect("nobody else writes");
         let saw = second.join().expect("no panic").expect_err("it only looks");
         assert_eq!(saw.to_string(), "first");
     });

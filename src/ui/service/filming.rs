@@ -2,7 +2,7 @@
 //! writes them.
 
 use std::convert::Infallible;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, TryRecvError};
@@ -132,7 +132,7 @@ impl<S: Fn(Msg)> Filming<'_, S> {
         let to = self.to.clone();
         let count = takes.count;
         let mut unfinished = None;
-        let written = deliver(&to, &to.path, |out| {
+        let written = deliver(&to, &to.path, &mut |out| {
             let mut next = |number| {
                 let traced = takes.take(number, Frames::Last).and_then(|take| {
                     check_spared(&to, &take.files)?;
@@ -173,7 +173,7 @@ impl<S: Fn(Msg)> Filming<'_, S> {
                 provenance: Some(&provenance),
                 ..Picture::of(&frame)
             };
-            let written = deliver(&to, &self.to.path, |out| format.write(picture, out))?;
+            let written = deliver(&to, &self.to.path, &mut |out| format.write(picture, out))?;
             (self.send)(Msg::FrameExported(written));
         }
         Ok(Exported {
@@ -309,10 +309,10 @@ impl Shot {
 fn deliver(
     to: &Destination,
     named: &Path,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    write: &mut file::Content<'_>,
 ) -> Result<Exported, Unfinished> {
     let confirm = || check_target_of(named, to).map_err(NotWritten::Refused);
-    match file::deliver(&to.path, write, confirm) {
+    match file::deliver(&to.path, write, &confirm) {
         Ok(version) => Ok(Exported {
             path: to.path.clone(),
             version,

@@ -225,7 +225,7 @@ fn save(path: PathBuf, text: &str, guard: &Guard) -> SaveOutcome {
         return SaveOutcome::NoFolder(without_folder(&path));
     }
     let may = || may_replace(&path, text, guard).map_err(NotWritten::Refused);
-    match file::replace(&path, |out| out.write_all(text.as_bytes()), may) {
+    match file::replace(&path, &mut |out| out.write_all(text.as_bytes()), &may) {
         Ok(()) => SaveOutcome::Saved {
             path,
             // If the text being edited were also the saved one, the next edit would have to copy it.
@@ -279,7 +279,7 @@ fn export(frame: &Frame, to: Destination) -> Result<Exported, Refused> {
         provenance: provenance.as_ref(),
         ..Picture::of(frame)
     };
-    let written = image_file::save(picture, &to.path, may);
+    let written = image_file::save(picture, &to.path, &may);
     match written {
         Ok(version) => Ok(Exported {
             path: to.path,

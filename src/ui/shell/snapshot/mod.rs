@@ -43,10 +43,10 @@ pub(super) fn write(cells: &Buffer, path: &Path, format: Format, theme: Theme) -
         Format::Ansi => terminal::printed(cells),
         Format::Picture => {
             let drawn = picture::drawn(cells, theme);
-            return image_file::save(image_file::Picture::of(&drawn), path, confirm).map(drop);
+            return image_file::save(image_file::Picture::of(&drawn), path, &confirm).map(drop);
         }
     };
-    file::deliver(path, |out| out.write_all(&bytes), confirm).map(drop)
+    file::deliver(path, &mut |out| out.write_all(&bytes), &confirm).map(drop)
 }
 
 /// The characters of a screen, one line for each row.
