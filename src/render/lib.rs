@@ -26,7 +26,7 @@
 //! # The way of a picture
 //!
 //! A [`Renderer`] hands a job to its worker (`engine/worker.rs`), which builds a [`world`] and fills the
-//! tiles of a film pass by pass (`engine/tracing.rs`, `engine/film.rs`). A frame context generates the
+//! tiles of a film pass by pass (`engine/tracing.rs`, `engine/film/mod.rs`). A frame context generates the
 //! camera samples, and a tracer computes their radiance. [Tone mapping](picture::tone) turns the film
 //! into a frame. A [`BlockTracer`] does the same block by block, for an [`Assembly`] that is put
 //! together later, perhaps on another machine.

@@ -9,7 +9,7 @@ use super::record::{RayEnd, Shading, Stop, TracedRay};
 use super::recorder::Recorder;
 use super::surface::{missing_around, shading};
 use crate::integrators::whitted::{Secondary, add_light, branch, follow};
-use crate::integrators::{Facing, Probe, RayState, Sample, SampleResult, Wave};
+use crate::integrators::{Facing, Probe, RayState, Sample, SampleResult, WhittedWave};
 use crate::light::light_sphere;
 use crate::material::reflectance;
 use crate::world::World;
@@ -32,7 +32,7 @@ pub(super) fn record(
 ) -> Option<(Rgb, Vec<TracedRay>)> {
     let mut trace = Trace {
         probe: Probe::new(world, depth, cancelled),
-        wave: Wave::default(),
+        wave: WhittedWave::default(),
         samples: [sample],
         seen: [SampleResult::NOTHING],
         waiting: vec![Waiting {
@@ -49,7 +49,7 @@ pub(super) fn record(
 /// A wave of one sample, and its record.
 struct Trace<'w, C> {
     probe: Probe<'w, C>,
-    wave: Wave<'w>,
+    wave: WhittedWave<'w>,
     samples: [Sample; 1],
     seen: [SampleResult; 1],
     /// What the rays are that the wave has yet to trace: the pending ones, then the one in the next

@@ -1,7 +1,7 @@
 //! Radiance along camera rays, and what else is known of the first surface.
 //!
-//! Whitted's integrator traces a [`wave`] of samples at once; the other two follow paths bounce by
-//! bounce, the third with the light of photons. All query the world through a [`probe`].
+//! Whitted's integrator traces a [wave](WhittedWave) of samples at once; the other two follow paths
+//! bounce by bounce, the third with the light of photons. All query the world through a [`probe`].
 //!
 //! The steps of [`path`] and [`whitted`] are open to explanations, which run them for one sample.
 
@@ -9,13 +9,13 @@ mod caustics;
 mod direct;
 mod first_hit;
 mod frame_context;
+mod hit_material;
 mod light_component;
 pub(crate) mod path;
 mod photon;
 mod probe;
 mod tracer;
 mod vertex;
-mod wave;
 pub(crate) mod whitted;
 
 pub(crate) use direct::{Facing, Points};
@@ -29,4 +29,4 @@ pub use probe::Counts;
 pub(crate) use probe::{Probe, Sample, SampleResult};
 pub(crate) use tracer::Tracer;
 pub(crate) use vertex::Vertex;
-pub(crate) use wave::{RayState, Wave};
+pub(crate) use whitted::{RayState, WhittedWave};

@@ -4,8 +4,7 @@ use super::light_component::LightComponent;
 use super::path::{PathWave, by_paths};
 use super::photon::PhotonMaps;
 use super::probe::{Counts, Probe, Sample, SampleResult};
-use super::wave::Wave;
-use super::whitted::by_whitted;
+use super::whitted::{WhittedWave, by_whitted};
 use crate::world::World;
 use scene::Integrator;
 
@@ -18,7 +17,7 @@ pub(crate) struct Tracer<'w, C> {
     /// The photons of samples, if there are to be any.
     photon_maps: Option<&'w PhotonMaps>,
     probe: Probe<'w, C>,
-    wave: Wave<'w>,
+    wave: WhittedWave<'w>,
     path_wave: PathWave,
 }
 
@@ -29,7 +28,7 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
             integrator,
             photon_maps: None,
             probe: Probe::new(world, depth, cancelled),
-            wave: Wave::default(),
+            wave: WhittedWave::default(),
             path_wave: PathWave::default(),
         }
     }

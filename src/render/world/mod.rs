@@ -4,23 +4,21 @@
 //! and kept as long as the mesh is in the scene.
 
 mod arrival;
-mod camera;
 mod dependencies;
 mod intersect;
 mod nearby;
 mod packets;
+mod picking;
 mod projection;
 mod spheres;
 mod structures;
 mod surfaces;
 
-pub(crate) use camera::Projection;
 pub(crate) use dependencies::Dependencies;
 pub(crate) use intersect::{Crossed, Nearest, NearestHits, Occlusion};
 pub(crate) use nearby::Nearby;
-pub use projection::{
-    SurfacePoint, axes, clearance, line_of, pixel_of, pixel_width, surface_under,
-};
+pub use picking::{SurfacePoint, axes, clearance, line_of, pixel_of, pixel_width, surface_under};
+pub(crate) use projection::Projection;
 #[cfg(test)]
 pub(crate) use structures::Search;
 pub(crate) use structures::{Structures, instances};

@@ -129,14 +129,16 @@ fn collect(root: &Path, folder: &Path, modules: &mut BTreeMap<Name, Module>) {
                 .map(|part| part.to_string_lossy().into_owned());
             let mut name: Name = parts.collect();
             name.pop_if(|last| ["mod", "lib", "main"].contains(&last.as_str()));
-            modules.insert(name, Module::read(path));
+            let text = fs::read_to_string(&path).expect("sources are readable");
+            if !text.contains("#![cfg(test)]") {
+                modules.insert(name, Module::new(path, &text));
+            }
         }
     }
 }
 
 impl Module {
-    fn read(file: PathBuf) -> Self {
-        let text = fs::read_to_string(&file).expect("sources are readable");
+    fn new(file: PathBuf, text: &str) -> Self {
         // Tests extend from the attribute to the end of the file, unless they are in another file,
         // which is skipped completely.
         let is_code = |line: &&str| line.starts_with(' ') || !line.ends_with("mod tests {");

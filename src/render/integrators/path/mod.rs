@@ -7,9 +7,8 @@
 mod emission;
 mod emitter_samples;
 mod light_samples;
+mod reference;
 mod shadow_rays;
-#[cfg(test)]
-mod tests;
 mod vertices;
 mod wave;
 
@@ -19,7 +18,7 @@ pub(crate) use emitter_samples::{
 };
 pub(crate) use light_samples::{add_light, add_one_of_many, choose_light};
 #[cfg(test)]
-pub(crate) use tests::radiance_alone;
+pub(crate) use reference::radiance_alone;
 pub(crate) use vertices::{Aimed, Vertices};
 pub(crate) use wave::{PathWave, add_caustics, by_paths, follow, go_on_from};
 

@@ -18,7 +18,6 @@
 //! light, so that fine caustics start out sharp.
 
 mod aim;
-mod deflection;
 mod emission;
 mod map;
 mod paths;

@@ -157,7 +157,7 @@ fn follow(
                 });
             }
         }
-        let Some(next) = bsdf.deflect(&point, sampler, bounce) else {
+        let Some(next) = bsdf.sample_adjoint(&point, sampler, bounce) else {
             return;
         };
         power *= next.weight * transmitted(next.absorption, distance);

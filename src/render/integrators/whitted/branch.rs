@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
+use super::wave::{RayState, WhittedWave};
 use crate::integrators::light_component::LightComponent;
 use crate::integrators::probe::{Sample, SampleResult};
-use crate::integrators::wave::{RayState, Wave};
 use crate::material::{
     Point, Refraction, facet, folded, fresnel, mirror, mirror_weight, reflect, refract_all,
     refraction_indices, spread,
@@ -58,7 +58,7 @@ struct Branch {
     absorption: Rgb,
 }
 
-impl Wave<'_> {
+impl WhittedWave<'_> {
     /// Adds the radiance of a packet's points to `seen` and pushes their secondary rays, the mirrored
     /// ray last because it is traced first. The next ray of each tree moves to the next front.
     #[inline(always)]

@@ -1,23 +1,26 @@
 //! Recursive ray tracing (Whitted, "An Improved Illumination Model for Shaded Display", 1980).
 
 mod branch;
+mod wave;
 
 pub(crate) use branch::Secondary;
+pub(crate) use wave::{RayState, WhittedWave};
 
 use std::borrow::Cow;
 
 use glam::DVec3;
 
 use super::direct::{Facing, Points, Shadow, sent_back};
+use super::hit_material::HitMaterial;
 use super::light_component::LightComponent;
 use super::probe::{Probe, Sample, SampleResult};
-use super::wave::{HitMaterial, RayState, ShadedHit, Wave};
 use crate::light::{Incoming, SphereLight, light_sphere, lights};
 use crate::material::{reflectance, transmitted};
 use crate::sampling::{Sampler, Use};
 use crate::world::{Dependencies, Nearest, Occlusion, World};
 use geometry::lanes::{Simd, WIDTH, bits, dispatch};
 use scene::{Light, Rgb};
+use wave::ShadedHit;
 
 /// Computes the radiance along camera rays. The rays of each are traced depth first, reflection
 /// before refraction; those beyond the ray budget contribute nothing.
@@ -26,7 +29,7 @@ use scene::{Light, Rgb};
 /// shadow rays. The order of summation within each sample does not depend on the others.
 pub(crate) fn by_whitted<'w, C: Fn() -> bool>(
     probe: &mut Probe<'w, C>,
-    wave: &mut Wave<'w>,
+    wave: &mut WhittedWave<'w>,
     samples: &[Sample],
     seen: &mut Vec<SampleResult>,
 ) {
@@ -53,7 +56,7 @@ pub(crate) fn by_whitted<'w, C: Fn() -> bool>(
 /// Finds the hits of the front's rays and shades them without lights.
 pub(crate) fn follow<'w, C>(
     probe: &Probe<'w, C>,
-    wave: &mut Wave<'w>,
+    wave: &mut WhittedWave<'w>,
     samples: &[Sample],
     seen: &mut [SampleResult],
 ) {
@@ -68,7 +71,7 @@ pub(crate) fn follow<'w, C>(
 /// file order.
 pub(crate) fn add_light<C>(
     probe: &mut Probe<'_, C>,
-    wave: &mut Wave<'_>,
+    wave: &mut WhittedWave<'_>,
     number: usize,
     samples: &[Sample],
     seen: &mut [SampleResult],
@@ -111,7 +114,7 @@ pub(crate) fn add_light<C>(
 /// Adds the radiance of the hits to `seen` and prepares the next front.
 pub(crate) fn branch<C>(
     probe: &Probe<'_, C>,
-    wave: &mut Wave<'_>,
+    wave: &mut WhittedWave<'_>,
     samples: &[Sample],
     seen: &mut [SampleResult],
 ) {
@@ -123,7 +126,7 @@ pub(crate) fn branch<C>(
     });
 }
 
-impl<'w> Wave<'w> {
+impl<'w> WhittedWave<'w> {
     /// Shades the hits of the front's rays.
     fn shade(
         &mut self,

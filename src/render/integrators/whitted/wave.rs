@@ -2,7 +2,8 @@
 
 use std::mem;
 
-use super::probe::{Counts, RAY_BUDGET, Sample};
+use crate::integrators::hit_material::HitMaterial;
+use crate::integrators::probe::{Counts, RAY_BUDGET, Sample};
 use crate::sampling::Sampler;
 use crate::world::{HitPoints, NearestHits};
 use geometry::{Packets, Ray};
@@ -83,35 +84,9 @@ pub(crate) struct ShadedHit<'w> {
     pub(crate) radiance: Rgb,
 }
 
-/// The material at the hit of a ray.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum HitMaterial<'w> {
-    /// The ray missed.
-    Nothing,
-    /// A material of the scene without maps.
-    Plain(&'w Material),
-    /// A material with its maps applied, by its index in [`Wave::mapped`].
-    Mapped(usize),
-}
-
-impl<'w> HitMaterial<'w> {
-    /// Returns the material, given those with maps applied.
-    #[inline]
-    pub(crate) fn get<'m>(self, mapped: &'m [Material]) -> Option<&'m Material>
-    where
-        'w: 'm,
-    {
-        match self {
-            Self::Nothing => None,
-            Self::Plain(material) => Some(material),
-            Self::Mapped(place) => mapped.get(place),
-        }
-    }
-}
-
 /// Camera samples traced together; the current ray of each forms the front.
 #[derive(Debug, Default)]
-pub(crate) struct Wave<'w> {
+pub(crate) struct WhittedWave<'w> {
     pub(crate) trees: Vec<RayTree>,
     pub(crate) front: Front,
     /// The front after this one.
@@ -133,7 +108,7 @@ pub(crate) struct Wave<'w> {
     pub(crate) blockers: Vec<Option<u32>>,
 }
 
-impl Wave<'_> {
+impl WhittedWave<'_> {
     /// Starts a tree for each sample.
     pub(crate) fn start(&mut self, samples: &[Sample]) {
         self.trees.resize_with(samples.len(), RayTree::default);

@@ -1,11 +1,13 @@
 //! Scattering of paths at surfaces: choice of the next direction, with its probability.
 
+mod adjoint;
+
 use glam::DVec3;
 
-use super::lobes::{LobeSamples, Lobes, Scattered};
-use super::microfacet::Microfacets;
-use super::optics::{Refraction, facet, folded, reflect, schlick, spread, strength};
-use super::point::Point;
+use crate::material::lobes::{LobeSamples, Lobes, Scattered};
+use crate::material::microfacet::Microfacets;
+use crate::material::optics::{Refraction, facet, folded, reflect, schlick, spread, strength};
+use crate::material::point::Point;
 use crate::material::{facets_reflectance, refraction_indices};
 use crate::sampling::{Sampler, Use};
 use geometry::Ray;

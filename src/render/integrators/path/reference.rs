@@ -1,5 +1,7 @@
 //! Paths traced alone, by formulas for one surface and one light: what waves of them are compared with.
 
+#![cfg(test)]
+
 use glam::DVec3;
 
 use super::emission::{Target, emission, sent_by_object, sent_by_sky};

@@ -11,9 +11,8 @@
 
 use glam::DVec3;
 
-use crate::material::{
-    Bsdf, Point, Refraction, folded, reflect, refraction_indices, spread, strength,
-};
+use super::Bsdf;
+use crate::material::{Point, Refraction, folded, reflect, refraction_indices, spread, strength};
 use crate::sampling::{Sampler, Use};
 use geometry::Ray;
 use geometry::Side;
@@ -21,7 +20,7 @@ use scene::Rgb;
 
 /// How a photon goes on from a surface.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Deflection {
+pub(crate) struct AdjointSample {
     pub(crate) ray: Ray,
     /// Factor on its power.
     pub(crate) weight: Rgb,
@@ -42,12 +41,12 @@ struct Meeting<'a> {
 
 impl Bsdf<'_> {
     /// Samples how a photon that arrives at a point after some bounces goes on; `None` where it ends.
-    pub(crate) fn deflect(
+    pub(crate) fn sample_adjoint(
         &self,
         point: &Point,
         sampler: Sampler,
         bounce: u32,
-    ) -> Option<Deflection> {
+    ) -> Option<AdjointSample> {
         let tint = self.material.dielectric.tint;
         let of_mirror = strength(self.mirror);
         let total = of_mirror + strength(tint);
@@ -75,7 +74,7 @@ impl Bsdf<'_> {
 
 impl Meeting<'_> {
     /// Reflects or refracts a photon whose power is multiplied by `weight`, by a number in 0..1.
-    fn at_boundary(&self, weight: Rgb, way: f64) -> Option<Deflection> {
+    fn at_boundary(&self, weight: Rgb, way: f64) -> Option<AdjointSample> {
         let Self { bsdf, point, .. } = self;
         let dielectric = &bsdf.material.dielectric;
         let is_cone = bsdf.facets.is_none() && dielectric.spread != 0.0;
@@ -117,17 +116,17 @@ impl Meeting<'_> {
     }
 
     /// Reflects a photon.
-    fn reflected(&self, to: DVec3, weight: Rgb) -> Option<Deflection> {
+    fn reflected(&self, to: DVec3, weight: Rgb) -> Option<AdjointSample> {
         let side = self.point.side;
         let losses = self.bsdf.material.losses(side);
         let is_reflected = self.side_of_path(to) == side;
         is_reflected.then(|| self.leaving(to, weight, losses.mirrored))?
     }
 
-    fn leaving(&self, to: DVec3, weight: Rgb, absorption: Rgb) -> Option<Deflection> {
+    fn leaving(&self, to: DVec3, weight: Rgb, absorption: Rgb) -> Option<AdjointSample> {
         let geometric = self.point.surface.normal;
         let factor = to.dot(geometric).abs() / self.point.view.dot(geometric).abs();
-        factor.is_finite().then(|| Deflection {
+        factor.is_finite().then(|| AdjointSample {
             ray: self.point.leave(to),
             weight: weight * factor,
             absorption,
