@@ -8,8 +8,8 @@ use super::{Messages, Tracing};
 use explain::{Place, Subject, cause, fault};
 use language::{Prospect, Source};
 use render::{
-    Advice, Fault, Frame, Frames, Job, Limit, PreparedScene, Progress, Provenance, Settings,
-    Trials, exposes,
+    Advice, Fault, Frame, Frames, Job, Limit, PreparedScene, Progress, Provenance, SettingSearch,
+    Settings, exposes,
 };
 use scene::{LEAST_ADAPTIVE_SPP, RenderKey, Rendering};
 
@@ -48,7 +48,7 @@ pub(super) fn print_biases(messages: Messages, frame: &Frame, picture: &Provenan
 /// A picture with which something may be wrong.
 pub(super) struct Suspect {
     job: Job,
-    trials: Trials,
+    trials: SettingSearch,
 }
 
 impl Suspect {
@@ -59,13 +59,13 @@ impl Suspect {
             return None;
         }
         let of_text = fault(prospects);
-        let trials = Trials::of_picture(frame, &job.scene, &job.settings, of_text)?;
+        let trials = SettingSearch::of_picture(frame, &job.scene, &job.settings, of_text)?;
         Some(Self { job, trials })
     }
 
     /// A picture that was not traced; `None` if its scene is large.
     pub(super) fn of_scene(job: Job, prospects: &[Prospect]) -> Option<Self> {
-        let trials = Trials::of_scene(&job.scene, &job.settings, fault(prospects))?;
+        let trials = SettingSearch::of_scene(&job.scene, &job.settings, fault(prospects))?;
         Some(Self { job, trials })
     }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::reading::Over;
 use super::{Messages, Tracing};
 use image_file::Recorded;
-use render::{Job, Provenance, Record, Region, denoises};
+use render::{Job, PictureMetadata, Provenance, Region, denoises};
 use scene::{Rendering, Scene, Size};
 
 /// A scene that is to be traced as a picture was.
@@ -16,7 +16,7 @@ pub(super) struct Graded<'w> {
     /// What the command line says, which comes first.
     said: &'w Tracing,
     /// What the picture's file says.
-    record: Option<Record>,
+    record: Option<PictureMetadata>,
     size: Option<Size>,
     region: Option<Region>,
 }
@@ -107,7 +107,7 @@ impl<'w> Graded<'w> {
             ),
         };
         Messages::Text.note(&told);
-        if let Some(unused) = self.record.as_ref().and_then(Record::unused) {
+        if let Some(unused) = self.record.as_ref().and_then(PictureMetadata::unused) {
             let told = format!("problems in the record of {picture} are ignored: {unused}");
             Messages::Text.note(&told);
         }

@@ -13,7 +13,8 @@ use super::signals::Signals;
 use super::{Error, Messages};
 use image_file::layer_bytes;
 use render::{
-    Advice, Aov, Frame, Frames, Job, Limit, Provenance, Region, Renderer, Settings, Threads, Trials,
+    Advice, Aov, Frame, Frames, Job, Limit, Provenance, Region, Renderer, SettingSearch, Settings,
+    Threads,
 };
 use scene::{Images, MAX_SPP, Rendering, Scene, Size, Viewpoint};
 
@@ -159,7 +160,7 @@ impl Tracer {
 
     /// Traces the small pictures of trials for a job, and returns what they show. Returns `None`
     /// if they cannot be traced.
-    pub(super) fn try_out(&mut self, job: &Job, mut trials: Trials) -> Option<Advice> {
+    pub(super) fn try_out(&mut self, job: &Job, mut trials: SettingSearch) -> Option<Advice> {
         loop {
             let job = Job {
                 settings: trials.settings(),

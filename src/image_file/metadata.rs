@@ -8,7 +8,7 @@ use exr::meta::attribute::AttributeValue;
 
 use super::input::Input;
 use super::{MAX_PIXELS, Unreadable};
-use render::{Provenance, Record};
+use render::{PictureMetadata, Provenance};
 
 /// The keyword of the text in a PNG, and the name of the attribute in an EXR.
 pub(super) const KEYWORD: &str = "halflight";
@@ -32,20 +32,20 @@ pub(super) fn text(provenance: &Provenance) -> String {
 /// # Errors
 ///
 /// Fails if it is neither a PNG nor an EXR, or damaged before its pixels.
-pub fn record(mut file: impl Read + Seek) -> Result<Option<Record>, Unreadable> {
+pub fn record(mut file: impl Read + Seek) -> Result<Option<PictureMetadata>, Unreadable> {
     record_in(&mut file)
 }
 
-pub(super) fn record_in(file: &mut dyn Input) -> Result<Option<Record>, Unreadable> {
+pub(super) fn record_in(file: &mut dyn Input) -> Result<Option<PictureMetadata>, Unreadable> {
     // As for pixels, decoders run on untrusted bytes.
     let read = panic::catch_unwind(AssertUnwindSafe(|| stored_text(file)));
     let text = read.unwrap_or_else(|_| Err(Unreadable::Broken("its decoder failed".to_owned())))?;
     let read = |text: String| {
-        let mut record = Record::read(&text);
+        let mut record = PictureMetadata::read(&text);
         record.limit(MAX_PIXELS);
         record
     };
-    let says_something = |record: &Record| !record.is_empty() || record.unused().is_some();
+    let says_something = |record: &PictureMetadata| !record.is_empty() || record.unused().is_some();
     Ok(text.map(read).filter(says_something))
 }
 

@@ -8,7 +8,7 @@ use super::input::Input;
 use super::metadata::record_in;
 use super::read::{decode_input, holds_light};
 use super::unreadable::Unreadable;
-use render::{Frame, Record};
+use render::{Frame, PictureMetadata};
 use scene::Image;
 
 /// A picture with what its file says of how it was made.
@@ -17,7 +17,7 @@ pub struct Recorded {
     /// Its pixels.
     pub image: Image,
     /// How it was made; `None` if the file does not say.
-    pub record: Option<Record>,
+    pub record: Option<PictureMetadata>,
     /// Whether the file holds floating-point values, to which no transfer curve was applied: a frame
     /// corresponds to its pixels [in 8 bits](in_8_bits).
     pub holds_light: bool,

@@ -18,7 +18,7 @@ use std::fmt;
 use std::io::{self, BufRead, Read};
 
 use super::shard::Shard;
-use render::{Blocks, Provenance, Record};
+use render::{Blocks, PictureMetadata, Provenance};
 
 /// The first line, with the version of the format.
 const MAGIC: &str = "halflight part 2";
@@ -66,7 +66,7 @@ impl Header {
     fn of(text: &str) -> Option<(Self, u32)> {
         let (_, picture) = text.split_once('\n')?;
         let (picture, behind) = picture.rsplit_once("\nshard ")?;
-        let picture = Record::read(&format!("{picture}\nspp 1\n")).provenance()?;
+        let picture = PictureMetadata::read(&format!("{picture}\nspp 1\n")).provenance()?;
         let header = Self {
             picture,
             shard: Shard::parse(behind.lines().next()?)?,

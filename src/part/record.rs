@@ -14,7 +14,7 @@ use std::time::Duration;
 use crc32fast::Hasher;
 use glam::DVec3;
 
-use render::{Block, Blocks, Cause, Counts};
+use render::{Block, Blocks, Counts, PixelHistory};
 
 const GOAL: u8 = b'G';
 const BLOCK: u8 = b'B';
@@ -30,11 +30,11 @@ const PIXEL: usize = SUM + 4 + 4 + 4;
 
 /// Bytes of a pixel's sum, and of what it depends on.
 const SUM: usize = 3 * 8;
-const CAUSE: usize = 8 + 4;
+const HISTORY: usize = 8 + 4;
 
 /// The bits of the lists that some blocks have.
 const HALF: u8 = 1;
-const CAUSES: u8 = 2;
+const HISTORIES: u8 = 2;
 const APART: u8 = 4;
 
 /// Squares of a block that take samples together.
@@ -118,7 +118,7 @@ impl Record {
         more(&mut bytes, missing)?;
         if bytes[0] == BLOCK {
             let (lists, number) = (bytes[1], u32_at(&bytes, 2));
-            if blocks.count() <= number || HALF | CAUSES | APART < lists {
+            if blocks.count() <= number || HALF | HISTORIES | APART < lists {
                 return Err(Damage::Corrupt);
             }
             let area = blocks.area(number);
@@ -158,7 +158,7 @@ fn checksum(header: u32, bytes: &[u8]) -> u32 {
 fn lengths(bits: u8, area: usize) -> [usize; 3] {
     let lists = [
         (HALF, SUM * area),
-        (CAUSES, CAUSE * area),
+        (HISTORIES, HISTORY * area),
         (APART, 4 * SQUARES),
     ];
     lists.map(|(bit, bytes)| if bits & bit == 0 { 0 } else { bytes })
@@ -167,7 +167,7 @@ fn lengths(bits: u8, area: usize) -> [usize; 3] {
 fn put_block(block: &Block, bytes: &mut Vec<u8>) {
     let bit = |bit: u8, is_empty: bool| if is_empty { 0 } else { bit };
     let lists = bit(HALF, block.half.is_empty())
-        | bit(CAUSES, block.causes.is_empty())
+        | bit(HISTORIES, block.histories.is_empty())
         | bit(APART, block.apart.is_empty());
     let area = block.sums.len();
     bytes.reserve(BLOCK_HEAD + PIXEL * area + lengths(lists, area).iter().sum::<usize>() + CRC);
@@ -187,7 +187,7 @@ fn put_block(block: &Block, bytes: &mut Vec<u8>) {
     }
     bytes.extend(block.objects.iter().flat_map(|object| object.to_le_bytes()));
     put_sums(&block.half, bytes);
-    for Cause { touched, rays } in &block.causes {
+    for PixelHistory { touched, rays } in &block.histories {
         bytes.extend(touched.to_le_bytes());
         bytes.extend(rays.to_le_bytes());
     }
@@ -204,7 +204,7 @@ fn put_sums(sums: &[DVec3], bytes: &mut Vec<u8>) {
 fn block(bytes: &[u8], blocks: Blocks) -> Block {
     let (lists, number) = (bytes[1], u32_at(bytes, 2));
     let area = blocks.area(number);
-    let [half, causes, apart] = lengths(lists, area);
+    let [half, histories, apart] = lengths(lists, area);
     let mut rest = &bytes[BLOCK_HEAD..];
     let mut next = |count: usize| {
         let (list, others) = rest.split_at(count);
@@ -227,7 +227,7 @@ fn block(bytes: &[u8], blocks: Blocks) -> Block {
         let integers = bytes.chunks_exact(4);
         integers.map(|integer| u32_at(integer, 0)).collect()
     };
-    let cause = |bytes: &[u8]| Cause {
+    let history = |bytes: &[u8]| PixelHistory {
         touched: u64_at(bytes, 0),
         rays: u32_at(bytes, 8),
     };
@@ -244,7 +244,7 @@ fn block(bytes: &[u8], blocks: Blocks) -> Block {
         variances: floats(next(4 * area)),
         objects: integers(next(4 * area)),
         half: sums_of(next(half)),
-        causes: next(causes).chunks_exact(CAUSE).map(cause).collect(),
+        histories: next(histories).chunks_exact(HISTORY).map(history).collect(),
         apart: integers(next(apart)),
     }
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use tempfile::TempDir;
 
 use super::*;
-use render::{Block, Blocks, Cause, Counts, Frames, Provenance, Settings};
+use render::{Block, Blocks, Counts, Frames, PixelHistory, Provenance, Settings};
 use scene::{Rendering, Size, Viewpoint};
 
 const SIZE: Size = Size {
@@ -50,13 +50,13 @@ fn block(number: u32, samples: u32) -> Block {
         } else {
             Vec::new()
         },
-        causes: if number == 1 {
+        histories: if number == 1 {
             let touched = |at: usize| 1 << (at % 64);
-            let cause = |at| Cause {
+            let history = |at| PixelHistory {
                 touched: touched(at),
                 rays: at as u32,
             };
-            (0..area).map(cause).collect()
+            (0..area).map(history).collect()
         } else {
             Vec::new()
         },

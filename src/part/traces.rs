@@ -18,7 +18,7 @@ use super::shard::Shard;
 use super::writer::write_whole;
 use file::Digest;
 use file::state_folder::{self, Folder, NEW, Store};
-use render::{Kept, Provenance};
+use render::{Checkpoint, Provenance};
 
 /// How the first line of every form of parts begins.
 const KIND: &str = "halflight part ";
@@ -76,7 +76,12 @@ impl Traces {
 
     /// Writes a trace, unless as many samples of it are kept already, and removes the oldest ones
     /// beyond [`MOST`] and [`MOST_BYTES`]. Stops at the deadline, which leaves what was there.
-    pub fn write(&self, picture: &Provenance, kept: &Kept, deadline: Instant) -> io::Result<()> {
+    pub fn write(
+        &self,
+        picture: &Provenance,
+        kept: &Checkpoint,
+        deadline: Instant,
+    ) -> io::Result<()> {
         let folder = Folder::make(&self.state, Store::Traces)?;
         let picture = picture.of_film();
         let name = name(&picture);

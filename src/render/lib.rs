@@ -33,7 +33,7 @@
 //!
 //! Pixels of live pictures record their dependencies (`world/dependencies.rs`): after an edit of a
 //! material or of a light's colour the film is reused, and only the pixels that depend on what changed
-//! (`engine/difference.rs`) are traced again.
+//! (`engine/edit_difference.rs`) are traced again.
 //!
 //! Dropping a renderer ends its work soon, however large the picture: cancellation is polled every
 //! few milliseconds, and a film's memory is first touched while tracing and freed by the pool.
@@ -55,16 +55,16 @@ pub use crate::explain::{
     TracedRay, Unlisted, UnlitReason, Verdict,
 };
 pub use engine::{
-    Assembly, BLOCK, Block, BlockTracer, Blocks, Cause, Kept, Refusal, Renderer, Threads,
-    check_memory, memory_for, memory_for_blocks, photons_kept,
+    Assembly, BLOCK, Block, BlockTracer, Blocks, Checkpoint, PixelHistory, Refusal, Renderer,
+    Threads, check_memory, memory_for, memory_for_blocks, photons_kept,
 };
 pub use geometry::Side;
 pub use integrators::Counts;
 pub use job::{Aov, Frames, Job, Limit, NO_OBJECT, NoRegion, Region, Settings, denoises};
 pub use picture::{
     Advice, Colours, Display, Fault, Frame, HISTOGRAM_STOPS, Histogram, MOST_HALF_STOPS,
-    Overexposure, Progress, Provenance, Query, Record, Trials, WireLine, Wireframe, exposes,
-    wireframe,
+    Overexposure, PictureMetadata, Progress, Provenance, Query, SettingSearch, WireLine, Wireframe,
+    exposes, wireframe,
 };
 pub use sampling::Densities;
 pub use simd_level::{CAP, CAPS, vectors};

@@ -9,7 +9,7 @@ use compare::{Comparison, SizesDiffer};
 use image_file::Recorded;
 use language::{Language, Source, errors_of_beginning};
 use memory::OutOfMemory;
-use render::{Frame, Record};
+use render::{Frame, PictureMetadata};
 use scene::{Image, Images, Scene, Size};
 use text::Findings;
 
@@ -39,7 +39,7 @@ pub enum ReferenceRead {
 #[derive(Clone, Debug, Default)]
 pub struct Made {
     /// What the file says of it; `None` if it says nothing.
-    pub record: Option<Box<Record>>,
+    pub record: Option<Box<PictureMetadata>>,
     /// Whether the file holds light without a transfer curve, as [`Recorded::holds_light`] says.
     pub holds_light: bool,
 }

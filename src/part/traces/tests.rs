@@ -42,13 +42,13 @@ fn job(spp: u32) -> Job {
 }
 
 /// A complete picture of a job.
-fn traced(job: &Job) -> Kept {
+fn traced(job: &Job) -> Checkpoint {
     let block = Block {
         samples: job.settings.spp,
         variances: vec![0.5; 20],
         ..Block::new(0, Blocks::of(SIZE))
     };
-    Kept::of([Ok(block)], Duration::from_secs(20), job).expect("it is a picture of the job")
+    Checkpoint::of([Ok(block)], Duration::from_secs(20), job).expect("it is a picture of the job")
 }
 
 fn picture(job: &Job) -> Provenance {
@@ -93,7 +93,7 @@ impl Place {
         self.at(&name(picture))
     }
 
-    fn write(&self, job: &Job, kept: &Kept) {
+    fn write(&self, job: &Job, kept: &Checkpoint) {
         let written = self.traces.write(&picture(job), kept, far());
         written.expect("it is written");
     }

@@ -53,7 +53,7 @@ pub(crate) fn square([x, y]: [u32; 2]) -> usize {
 /// Of the squares `taking` samples so far, those that take more: unless the noise of the square and
 /// of all adjoining ones is below the limit. Given the squared errors of the pixels of a block, in rows,
 /// each with the index of its square.
-pub(crate) fn go_on(
+pub(crate) fn unconverged(
     limit: f64,
     taking: Squares,
     pixels: impl Iterator<Item = (usize, f32)>,
@@ -132,7 +132,7 @@ mod tests {
             "##......", "##......", "..###...", "..###...", "..###...", "......##", "......##",
             "......##",
         ]);
-        assert_eq!(go_on(0.1, ALL, errors(noisy)), expected);
+        assert_eq!(unconverged(0.1, ALL, errors(noisy)), expected);
     }
 
     #[test]
@@ -141,17 +141,17 @@ mod tests {
             "########", "########", "........", "........", "........", "........", "........",
             "........",
         ]);
-        assert_eq!(go_on(0.1, taking, errors(ALL)), taking);
-        assert_eq!(go_on(0.1, ALL, errors(NONE)), NONE);
+        assert_eq!(unconverged(0.1, taking, errors(ALL)), taking);
+        assert_eq!(unconverged(0.1, ALL, errors(NONE)), NONE);
     }
 
     #[test]
     fn a_square_has_the_root_of_its_mean_squared_error_and_pixels_beyond_the_edge_have_none() {
         // One noisy pixel of 16: the mean is 0.04 / 16, and its root .05.
         let pixels = || (0..16).map(|at| (9, if at == 5 { 0.04 } else { 0.0 }));
-        assert_eq!(go_on(0.051, ALL, pixels()), NONE);
+        assert_eq!(unconverged(0.051, ALL, pixels()), NONE);
         let expected = Squares::of(|index| [0, 1, 2, 8, 9, 10, 16, 17, 18].contains(&index));
-        assert_eq!(go_on(0.049, ALL, pixels()), expected);
+        assert_eq!(unconverged(0.049, ALL, pixels()), expected);
         assert_eq!(square([36, 39]), 9);
     }
 }

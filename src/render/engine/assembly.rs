@@ -10,7 +10,7 @@ use super::blocks::Blocks;
 use super::preflight::Refusal;
 use crate::integrators::Counts;
 use crate::job::{Aov, Frames, Settings};
-use crate::picture::{Frame, Light, Overexposure, Progress, Tone, tone};
+use crate::picture::{DisplayTransform, Frame, Overexposure, Progress, Tone, tone};
 use scene::Rgb;
 
 /// A picture whose blocks arrive in any order; a later one replaces an earlier one of its number.
@@ -94,7 +94,7 @@ impl Assembly {
         let highest = placed.iter().map(|block| block.highest).max();
         settings.spp = spp.min(highest.unwrap_or(spp));
         let range = tone::scale(settings.aov, values.par_iter().copied());
-        let tone = Tone::of(settings.aov, Light::of(&settings), range);
+        let tone = Tone::of(settings.aov, DisplayTransform::of(&settings), range);
         let overexposure = Overexposure::of_all(&values, |&value| tone.linear(value));
         let pixels = values.par_iter().map(|&value| tone.bytes(value)).collect();
         let values = match frames {

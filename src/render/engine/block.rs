@@ -2,11 +2,12 @@
 
 use std::time::{Duration, Instant};
 
-use super::adaptive::{SQUARES, Squares, go_on, square};
+use super::adaptive::{SQUARES, Squares, square, unconverged};
 use super::blocks::Blocks;
 use super::noise::Doubling;
 use super::pass_schedule::Step;
-use super::tile::{Cause, Work};
+use super::pixel_sampler::PixelSampler;
+use super::tile::PixelHistory;
 use crate::integrators::{Counts, FrameContext};
 use crate::job::{Aov, NO_OBJECT, Region, Settings};
 use crate::picture::UNKNOWN;
@@ -40,8 +41,8 @@ pub struct Block {
     pub variances: Vec<f32>,
     /// The index of the object under each pixel's centre, or [`NO_OBJECT`].
     pub objects: Vec<u32>,
-    /// What each pixel depends on, see [`Cause`]; empty where it is not recorded.
-    pub causes: Vec<Cause>,
+    /// What each pixel depends on, see [`PixelHistory`]; empty where it is not recorded.
+    pub histories: Vec<PixelHistory>,
     /// The rays traced for it.
     pub counts: Counts,
 }
@@ -59,7 +60,7 @@ impl Block {
             squared_errors: vec![0.0; area],
             variances: vec![UNKNOWN; area],
             objects: vec![NO_OBJECT; area],
-            causes: Vec::new(),
+            histories: Vec::new(),
             counts: Counts::default(),
         }
     }
@@ -89,7 +90,7 @@ impl Block {
         &mut self,
         spp: u32,
         shot: &FrameContext<'_>,
-        work: &mut Work<'_, C>,
+        sampler: &mut PixelSampler<'_, C>,
         (interval, keep): (Duration, impl Fn(&Self)),
     ) {
         let region = Blocks::of(shot.settings.traced().size()).region(self.number);
@@ -102,7 +103,7 @@ impl Block {
         let mut kept = Instant::now();
         if self.samples < spp {
             // They are not recorded here.
-            self.causes.clear();
+            self.histories.clear();
         }
         for index in self.samples..spp {
             if self.rejoin(index) {
@@ -117,20 +118,20 @@ impl Block {
                 let errors = region
                     .pixels()
                     .map(|pixel| (square(pixel), self.squared_errors[at(pixel)]));
-                let going_on = go_on(limit, taking, errors);
+                let going_on = unconverged(limit, taking, errors);
                 self.stop(taking, going_on);
                 taking = going_on;
                 pixels.retain(|&pixel| taking.has(square(pixel)));
             }
-            let before = work.tracer.counts();
+            let before = sampler.tracer.counts();
             seen.clear();
             for together in pixels.chunks(TOGETHER) {
-                work.pixels.clear();
-                work.pixels.extend_from_slice(together);
-                work.sample(index, shot);
-                seen.extend_from_slice(&work.seen);
+                sampler.pixels.clear();
+                sampler.pixels.extend_from_slice(together);
+                sampler.sample(index, shot);
+                seen.extend_from_slice(&sampler.seen);
             }
-            if work.tracer.is_cancelled() {
+            if sampler.tracer.is_cancelled() {
                 return;
             }
             if index.is_power_of_two() && self.half.is_empty() {
@@ -146,7 +147,7 @@ impl Block {
                 }
             }
             self.samples = index + 1;
-            let rays = work.tracer.counts().since(before);
+            let rays = sampler.tracer.counts().since(before);
             self.counts = self.counts.and(rays);
             if self.samples.is_power_of_two() {
                 self.estimate(&shot.settings, pixels.iter().map(|&pixel| at(pixel)));

@@ -8,13 +8,13 @@ use rayon::prelude::*;
 
 use super::block::Block;
 use super::blocks::Blocks;
+use super::pixel_sampler::PixelSampler;
 use super::preflight;
 use super::preflight::Refusal;
 use super::renderer::{Threads, pool};
-use super::tile::Work;
 use crate::integrators::{FrameContext, LightComponent, MAPS, PhotonRules, Photons, Tracer};
 use crate::job::{Aov, Job};
-use crate::world::{Rules, World};
+use crate::world::{World, WorldSettings};
 
 /// A scene prepared to be traced block by block on threads of its own.
 #[derive(Debug)]
@@ -41,9 +41,9 @@ impl BlockTracer {
         job.settings.traced().within(job.settings.size)?;
         preflight::check_memory(&job, preflight::memory_for_blocks(&job, 0, None))?;
         let build = || {
-            let rules = Rules::of(&job.settings);
+            let settings = WorldSettings::of(&job.settings);
             let scene = Arc::clone(&job.scene);
-            let world = World::build(scene, &job.images, rules, None, &stopped)?;
+            let world = World::build(scene, &job.images, settings, None, &stopped)?;
             let photons = match PhotonRules::of(&job.settings) {
                 Some(rules) => Some(Photons::build(&world, rules, None, &stopped)?),
                 None => None,
@@ -84,16 +84,16 @@ impl BlockTracer {
         // As in previews, so that they share the compiled code.
         let cancelled: &(dyn Fn() -> bool + Sync) = &stopped;
         let shot = FrameContext::new(&self.world, &self.job.camera, self.job.settings);
-        let work = || work(&shot, cancelled);
-        let trace = |work: &mut Work<'_, _>, mut block: Block| {
+        let new_sampler = || pixel_sampler(&shot, cancelled);
+        let trace = |sampler: &mut PixelSampler<'_, _>, mut block: Block| {
             if !stopped() {
                 let keep = |block: &Block| hand_over(block.clone());
-                block.trace(spp, &shot, work, (interval, keep));
+                block.trace(spp, &shot, sampler, (interval, keep));
                 hand_over(block);
             }
         };
         self.pool
-            .install(|| blocks.par_bridge().for_each_init(work, trace));
+            .install(|| blocks.par_bridge().for_each_init(new_sampler, trace));
     }
 
     /// Continues blocks by a few samples of all of them at a time, whose photon maps are held.
@@ -115,11 +115,11 @@ impl BlockTracer {
             };
             let shot = FrameContext::new(&self.world, &self.job.camera, self.job.settings);
             let shot = shot.with_photons(Some(&maps));
-            let trace = |work: &mut Work<'_, _>, block: &mut Block| {
-                block.trace(goal, &shot, work, (Duration::MAX, |_: &Block| {}));
+            let trace = |sampler: &mut PixelSampler<'_, _>, block: &mut Block| {
+                block.trace(goal, &shot, sampler, (Duration::MAX, |_: &Block| {}));
             };
             let lacking = blocks.par_iter_mut().filter(|block| block.samples < goal);
-            lacking.for_each_init(|| work(&shot, stopped), trace);
+            lacking.for_each_init(|| pixel_sampler(&shot, stopped), trace);
             if interval <= handed_over.elapsed() && goal < spp {
                 blocks.iter().cloned().for_each(hand_over);
                 handed_over = Instant::now();
@@ -131,16 +131,16 @@ impl BlockTracer {
 }
 
 /// What a thread traces blocks with.
-fn work<'w>(
+fn pixel_sampler<'w>(
     shot: &FrameContext<'w>,
     cancelled: &'w (dyn Fn() -> bool + Sync),
-) -> Work<'w, &'w (dyn Fn() -> bool + Sync)> {
+) -> PixelSampler<'w, &'w (dyn Fn() -> bool + Sync)> {
     let settings = shot.settings;
     let tracer = Tracer::new(shot.world, settings.integrator, settings.depth, cancelled);
     let tracer = tracer
         .gathering(LightComponent::of(settings.aov))
         .with_photons(shot.photons);
-    Work::new(match settings.aov {
+    PixelSampler::new(match settings.aov {
         // Only then are rays told apart by samples.
         Some(Aov::Cost) => tracer.noting(),
         _ => tracer,

@@ -9,7 +9,7 @@ use super::adaptive::{SQUARES, square};
 use super::block::Block;
 use super::blocks::Blocks;
 use super::pass_schedule::{level_of, samples_at};
-use super::tile::{Cause, Remembers, Stored, Tile, TileShape};
+use super::tile::{PixelHistory, Remembers, Stored, Tile, TileShape};
 use crate::integrators::Counts;
 use crate::job::{Aov, Job, NO_OBJECT, Region};
 use crate::picture::UNKNOWN;
@@ -20,7 +20,7 @@ const FREED: usize = 512;
 
 /// A picture as far as it is traced, in which tiles may be unfinished.
 #[derive(Debug)]
-pub struct Kept {
+pub struct Checkpoint {
     pub(crate) size: Size,
     /// The samples of each pixel that it was traced to.
     pub(crate) spp: u32,
@@ -41,7 +41,7 @@ pub(crate) struct Effort {
     pub(crate) counts: Counts,
 }
 
-impl Kept {
+impl Checkpoint {
     /// The sum of the numbers of samples of all pixels.
     pub fn samples(&self) -> u64 {
         self.tiles.iter().map(|tile| tile.samples(self.spp)).sum()
@@ -110,10 +110,10 @@ impl Kept {
                 .map(|of_square| apart(of_square).unwrap_or(0))
                 .into();
         }
-        if self.remembers == Remembers::Causes {
+        if self.remembers == Remembers::Histories {
             block
-                .causes
-                .resize(region.size().pixels(), Cause::default());
+                .histories
+                .resize(region.size().pixels(), PixelHistory::default());
         }
         for (at, pixel) in region.pixels().enumerate() {
             if let Some(tile) = self.tile(pixel).filter(|tile| tile.corner() == pixel) {
@@ -127,8 +127,8 @@ impl Kept {
             block.squared_errors[at] = stored.squared_error;
             block.variances[at] = stored.variance;
             block.objects[at] = stored.object;
-            if let Some((place, cause)) = block.causes.get_mut(at).zip(stored.cause) {
-                *place = cause;
+            if let Some((place, history)) = block.histories.get_mut(at).zip(stored.history) {
+                *place = history;
             }
         }
         Some(block)
@@ -190,7 +190,7 @@ impl Kept {
 
 /// A picture whose tiles are filled from blocks.
 struct Assembled {
-    kept: Kept,
+    checkpoint: Checkpoint,
     /// The level that the pixels of each tile have that have not stopped.
     levels: Vec<u8>,
 }
@@ -205,7 +205,7 @@ impl Assembled {
         tiles.try_reserve_exact(count)?;
         tiles.extend((0..count).map(|number| Tile::new(number, size, shape, remembers)));
         Ok(Self {
-            kept: Kept {
+            checkpoint: Checkpoint {
                 size,
                 spp: job.settings.spp,
                 is_adaptive: job.settings.adaptive().is_some(),
@@ -218,9 +218,9 @@ impl Assembled {
     }
 
     fn place(&mut self, block: &Block, job: &Job) -> io::Result<()> {
-        let Kept {
+        let Checkpoint {
             size, spp, tiles, ..
-        } = &mut self.kept;
+        } = &mut self.checkpoint;
         let blocks = Blocks::of(*size);
         if blocks.count() <= block.number {
             return Err(ErrorKind::InvalidData.into());
@@ -247,11 +247,11 @@ impl Assembled {
         Ok(())
     }
 
-    fn finish(mut self) -> Kept {
-        for (tile, level) in self.kept.tiles.iter_mut().zip(self.levels) {
+    fn finish(mut self) -> Checkpoint {
+        for (tile, level) in self.checkpoint.tiles.iter_mut().zip(self.levels) {
             tile.settle(level);
         }
-        self.kept
+        self.checkpoint
     }
 }
 
@@ -286,19 +286,25 @@ fn stored(block: &Block, at: usize, reached: &Reached, job: &Job) -> io::Result<
     if object != NO_OBJECT && job.scene.objects.len() <= object as usize {
         return Err(ErrorKind::InvalidData.into());
     }
-    let mut cause = block.causes.get(at).copied().unwrap_or(Cause::UNKNOWN);
+    let mut history = block
+        .histories
+        .get(at)
+        .copied()
+        .unwrap_or(PixelHistory::UNKNOWN);
     if 0 < block.counts.over_budget {
         // Which pixels exceeded their budget is not known: an edit retraces all.
-        cause.touched = Cause::UNKNOWN.touched;
+        history.touched = PixelHistory::UNKNOWN.touched;
     }
     if reached.is_half {
-        cause.rays = Cause::UNKNOWN.rays;
+        history.rays = PixelHistory::UNKNOWN.rays;
     }
     let is_light = job.settings.surface().is_none();
     let has_error = reached.level < 2 || !is_light || block.variances[at] != UNKNOWN;
-    let needs_errors = Remembers::of(&job.settings, job.frames, job.denoise) == Remembers::Causes;
+    let needs_errors =
+        Remembers::of(&job.settings, job.frames, job.denoise) == Remembers::Histories;
     let needs_rays = job.settings.aov == Some(Aov::Cost);
-    let is_known = (has_error || !needs_errors) && (cause != Cause::UNKNOWN || !needs_rays);
+    let is_known =
+        (has_error || !needs_errors) && (history != PixelHistory::UNKNOWN || !needs_rays);
     if reached.level == 0 || !is_known {
         return Ok(Stored::NOTHING);
     }
@@ -313,6 +319,6 @@ fn stored(block: &Block, at: usize, reached: &Reached, job: &Job) -> io::Result<
         level: reached.level,
         squared_error: block.squared_errors[at],
         variance: block.variances[at],
-        cause: Some(cause),
+        history: Some(history),
     })
 }

@@ -6,13 +6,14 @@ mod block;
 mod block_tracer;
 mod blocks;
 mod checkpoint;
-mod difference;
+mod edit_difference;
 mod film;
 mod noise;
 mod pass_schedule;
+mod pixel_sampler;
 mod preflight;
 mod renderer;
-mod shared;
+mod renderer_state;
 mod tile;
 mod tracing;
 mod worker;
@@ -21,9 +22,9 @@ pub use assembly::Assembly;
 pub use block::Block;
 pub use block_tracer::BlockTracer;
 pub use blocks::{BLOCK, Blocks};
-pub use checkpoint::Kept;
+pub use checkpoint::Checkpoint;
 #[cfg(test)]
-pub(crate) use difference::difference;
+pub(crate) use edit_difference::edit_difference;
 #[cfg(test)]
 pub(crate) use film::Film;
 #[cfg(test)]
@@ -32,6 +33,6 @@ pub(crate) use noise::Doubling;
 pub(crate) use pass_schedule::{Step, steps};
 pub use preflight::{Refusal, check_memory, memory_for, memory_for_blocks, photons_kept};
 pub use renderer::{Renderer, Threads};
-pub use tile::Cause;
+pub use tile::PixelHistory;
 #[cfg(test)]
 pub(crate) use tile::Remembers;

@@ -7,7 +7,7 @@
 
 use super::pass_schedule::Step;
 use crate::job::Settings;
-use crate::picture::Light;
+use crate::picture::DisplayTransform;
 use scene::Rgb;
 
 /// The difference of means that rounding may cause, as a share of them.
@@ -18,7 +18,7 @@ const ROUNDING: f64 = 1e-10;
 pub(crate) struct Doubling {
     /// Samples in each half.
     half: f64,
-    light: Light,
+    display: DisplayTransform,
 }
 
 impl Doubling {
@@ -30,14 +30,14 @@ impl Doubling {
         let doubles = indices.end == 2 * indices.start && settings.surface().is_none();
         doubles.then(|| Self {
             half: f64::from(indices.start),
-            light: Light::of(settings),
+            display: DisplayTransform::of(settings),
         })
     }
 
     /// Returns the squared error of a pixel in its worst channel, from its sums of radiance before
     /// and after the pass.
     pub(crate) fn squared_error(self, before: Rgb, after: Rgb) -> f64 {
-        let mean = |sum: Rgb| self.light.displayed(sum / self.half);
+        let mean = |sum: Rgb| self.display.displayed(sum / self.half);
         let error = 0.5 * (mean(before) - mean(after - before)).abs().max_element();
         error * error
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::film::Film;
 use crate::integrators::{PhotonRules, Photons};
 use crate::job::{Job, NoRegion};
-use crate::world::{FEW, Rules, World, instances};
+use crate::world::{FEW, World, WorldSettings, instances};
 use memory::{Need, OutOfMemory};
 use scene::{Rgb, Scene, Size};
 
@@ -79,7 +79,13 @@ pub fn photons_kept(job: &Job) -> Option<u64> {
     let rules = PhotonRules::of(&job.settings)?;
     let scene = Arc::clone(&job.scene);
     let never = || false;
-    let world = World::build(scene, &job.images, Rules::of(&job.settings), None, &never)?;
+    let world = World::build(
+        scene,
+        &job.images,
+        WorldSettings::of(&job.settings),
+        None,
+        &never,
+    )?;
     Some(Photons::build(&world, rules, None, &never)?.kept())
 }
 

@@ -7,10 +7,10 @@ use std::thread::JoinHandle;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::checkpoint::Kept;
+use super::checkpoint::Checkpoint;
 use super::film::{Film, NoMemory};
 use super::preflight::Refusal;
-use super::shared::Shared;
+use super::renderer_state::RendererState;
 use super::worker::{Request, Submission, Submissions};
 use super::{preflight, worker};
 use crate::job::Job;
@@ -31,7 +31,7 @@ pub enum Threads {
 /// A worker that traces the newest job. Dropping it cancels the work and joins the thread.
 #[derive(Debug)]
 pub struct Renderer {
-    shared: Arc<Shared>,
+    state: Arc<RendererState>,
     /// The reason if threads cannot be started; [`Refusal::Ended`] only during drop.
     worker: Result<Worker, Refusal>,
     /// The scene of the last accepted job.
@@ -49,11 +49,11 @@ impl Renderer {
     /// Starts the worker. It calls `wake` when a newer frame is available, at most once between
     /// calls of [`Renderer::latest`]. If threads cannot be started, every job is refused.
     pub fn new(threads: Threads, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let shared = Arc::new(Shared::default());
+        let state = Arc::new(RendererState::default());
         let count = threads.count();
-        let worker = Worker::start(threads, Arc::clone(&shared), wake);
+        let worker = Worker::start(threads, Arc::clone(&state), wake);
         Self {
-            shared,
+            state,
             worker: worker.map_err(|reason| Refusal::Threads { count, reason }),
             accepted: Weak::new(),
         }
@@ -70,11 +70,15 @@ impl Renderer {
     /// Like [`Renderer::restart`], but a job that does not continue the picture before waits for one
     /// that was kept of it, of the same scene, camera and settings: `recalled` brings it, or closes
     /// if there is none.
-    pub fn restart_from(&mut self, job: Job, recalled: Receiver<Kept>) -> Result<u64, Refusal> {
+    pub fn restart_from(
+        &mut self,
+        job: Job,
+        recalled: Receiver<Checkpoint>,
+    ) -> Result<u64, Refusal> {
         self.submit(job, Some(recalled))
     }
 
-    fn submit(&mut self, job: Job, recalled: Option<Receiver<Kept>>) -> Result<u64, Refusal> {
+    fn submit(&mut self, job: Job, recalled: Option<Receiver<Checkpoint>>) -> Result<u64, Refusal> {
         let worker = self.worker.as_ref().map_err(Refusal::clone)?;
         let region = job.settings.traced().within(job.settings.size)?;
         preflight::fits(&job, self.accepted.upgrade().as_ref())?;
@@ -84,7 +88,7 @@ impl Renderer {
             size: region.size(),
             bytes,
         })?;
-        let generation = self.shared.begin();
+        let generation = self.state.begin();
         let submission = Submission {
             generation,
             job,
@@ -105,18 +109,18 @@ impl Renderer {
     /// pixels if it differs from it in the materials, the colours of lights, the number of samples
     /// or the limit.
     pub fn stop(&mut self) {
-        self.shared.begin();
+        self.state.begin();
     }
 
     /// Pauses the newest job within a few milliseconds: its threads wait. Ends with
     /// [`Renderer::resume`] or the next job.
     pub fn pause(&mut self) {
-        self.shared.pause();
+        self.state.pause();
     }
 
     /// Continues a paused job.
     pub fn resume(&mut self) {
-        self.shared.resume();
+        self.state.resume();
     }
 
     /// Ends the work and returns the newest picture as far as it is traced, paused or not; `None` if
@@ -124,7 +128,7 @@ impl Renderer {
     /// long as dropping the renderer.
     ///
     /// [`Frames::Live`]: crate::Frames::Live
-    pub fn keep(self) -> Option<Kept> {
+    pub fn into_checkpoint(self) -> Option<Checkpoint> {
         let (keeper, kept) = mpsc::channel();
         let worker = self.worker.as_ref().ok()?;
         worker.requests.send(Request::Keep(keeper)).ok()?;
@@ -134,13 +138,13 @@ impl Renderer {
 
     /// Returns the newest frame since the last call, if any.
     pub fn latest(&self) -> Option<Arc<Frame>> {
-        self.shared.take()
+        self.state.take()
     }
 }
 
 impl Drop for Renderer {
     fn drop(&mut self) {
-        self.shared.quit();
+        self.state.quit();
         if let Ok(Worker {
             requests, thread, ..
         }) = mem::replace(&mut self.worker, Err(Refusal::Ended))
@@ -155,7 +159,7 @@ impl Drop for Renderer {
 impl Worker {
     fn start(
         threads: Threads,
-        shared: Arc<Shared>,
+        state: Arc<RendererState>,
         wake: impl Fn() + Send + Sync + 'static,
     ) -> Result<Self, String> {
         let pool = pool(threads).map_err(|error| error.to_string())?;
@@ -164,7 +168,7 @@ impl Worker {
         let submitted = Arc::clone(&submissions);
         let thread = std::thread::Builder::new()
             .name("renderer".to_owned())
-            .spawn(move || worker::run(&inbox, &submitted, &shared, &wake, &pool))
+            .spawn(move || worker::run(&inbox, &submitted, &state, &wake, &pool))
             .map_err(|error| error.to_string())?;
         Ok(Self {
             submissions,

@@ -3,10 +3,10 @@
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-use super::checkpoint::{Effort, Kept};
+use super::checkpoint::{Checkpoint, Effort};
 use super::film::{Film, Raster};
 use super::pass_schedule::Step;
-use super::shared::Shared;
+use super::renderer_state::RendererState;
 use crate::integrators::{Counts, FrameContext, MAPS, Photons};
 use crate::job::{Frames, Job, Limit, NO_OBJECT};
 use crate::picture::{Frame, Guides, Noisy, Progress, Query};
@@ -46,9 +46,9 @@ impl Batches {
 
 /// Decides whether a job may continue, and tells how long it has been at work.
 #[derive(Clone, Copy)]
-pub(crate) struct Ticket<'s> {
+pub(crate) struct JobToken<'s> {
     generation: u64,
-    shared: &'s Shared,
+    state: &'s RendererState,
     begun: Instant,
     /// Pauses of the renderer before.
     pauses: Duration,
@@ -56,15 +56,15 @@ pub(crate) struct Ticket<'s> {
     built: Instant,
 }
 
-impl<'s> Ticket<'s> {
-    /// The ticket of a job that begins now.
-    pub(crate) fn new(generation: u64, shared: &'s Shared) -> Self {
+impl<'s> JobToken<'s> {
+    /// The token of a job that begins now.
+    pub(crate) fn new(generation: u64, state: &'s RendererState) -> Self {
         let begun = Instant::now();
         Self {
             generation,
-            shared,
+            state,
             begun,
-            pauses: shared.pauses(),
+            pauses: state.pauses(),
             built: begun,
         }
     }
@@ -80,26 +80,26 @@ impl<'s> Ticket<'s> {
     /// Whether to stop: at once when the renderer is dropped; for a newer job once a frame of this
     /// one was published, or its grace period is over. Returns after a pause.
     fn cancelled(&self, published: Option<Instant>) -> bool {
-        self.shared.wait(self.generation);
-        self.shared.is_old(self.generation)
-            && (published.is_some() || GRACE <= self.built.elapsed() || self.shared.is_quitting())
+        self.state.wait(self.generation);
+        self.state.is_old(self.generation)
+            && (published.is_some() || GRACE <= self.built.elapsed() || self.state.is_quitting())
     }
 
     /// Whether a finished frame is no longer wanted; a first frame is shown despite newer jobs.
     fn unwanted(&self, published: Option<Instant>) -> bool {
-        self.shared.is_quitting() || (published.is_some() && self.shared.is_old(self.generation))
+        self.state.is_quitting() || (published.is_some() && self.state.is_old(self.generation))
     }
 
     /// The time since the job began, without pauses.
     fn elapsed(&self) -> Duration {
-        let pauses = self.shared.pauses().saturating_sub(self.pauses);
+        let pauses = self.state.pauses().saturating_sub(self.pauses);
         self.begun.elapsed().saturating_sub(pauses)
     }
 }
 
 /// The picture of a job in progress.
 pub(crate) struct Tracing<'s, W> {
-    ticket: Ticket<'s>,
+    token: JobToken<'s>,
     job: &'s Job,
     wake: &'s W,
     film: Film,
@@ -127,14 +127,14 @@ pub(crate) struct Tracing<'s, W> {
 impl<'s, W: Fn() + Sync> Tracing<'s, W> {
     /// Prepares to trace a job, or to continue on a film that took some effort.
     pub(crate) fn new(
-        ticket: Ticket<'s>,
+        token: JobToken<'s>,
         job: &'s Job,
         (film, before): (Film, Effort),
         wake: &'s W,
         query: Query,
     ) -> Self {
         Self {
-            ticket,
+            token,
             job,
             wake,
             film,
@@ -177,8 +177,8 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         for part in step.parts(photons.map_or(u32::MAX, |_| MAPS)) {
             // Before the tiles, whose threads must not wait for each other.
             let maps = photons.filter(|_| is_lacking).map(|photons| {
-                let (ticket, published) = (self.ticket, self.published);
-                let cancelled = || ticket.cancelled(published);
+                let (token, published) = (self.token, self.published);
+                let cancelled = || token.cancelled(published);
                 photons.maps(shot.world, part.clone(), &cancelled)
             });
             if maps.as_ref().is_some_and(Option::is_none) {
@@ -210,16 +210,16 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         let mut next = 0;
         while next < tiles {
             let until = self.film.stretch(next, self.batch, step);
-            let begun = self.ticket.elapsed();
-            let (ticket, published) = (self.ticket, self.published);
-            let cancelled = || ticket.cancelled(published);
+            let begun = self.token.elapsed();
+            let (token, published) = (self.token, self.published);
+            let cancelled = || token.cancelled(published);
             let part = (step, part.clone());
             let counts = self.film.advance(next..until, part, shot, &cancelled);
             self.counts = self.counts.and(counts);
             if cancelled() {
                 return false;
             }
-            let took = self.ticket.elapsed().saturating_sub(begun);
+            let took = self.token.elapsed().saturating_sub(begun);
             self.batch = next_batch(self.batch, took, Batches::of(self.job.frames).time);
             next = until;
             self.taken = before + share * (next as f64 / tiles as f64);
@@ -231,13 +231,13 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
     }
 
     /// The picture as far as it is traced.
-    pub(crate) fn keep(self) -> Kept {
+    pub(crate) fn into_checkpoint(self) -> Checkpoint {
         let time = self.elapsed();
-        self.film.keep(time)
+        self.film.into_checkpoint(time)
     }
 
     fn elapsed(&self) -> Duration {
-        self.before.time + self.ticket.elapsed()
+        self.before.time + self.token.elapsed()
     }
 
     /// Whether the limit of the job is met after a step. No pixel may have more samples than the
@@ -281,14 +281,14 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
     /// Whether to show the first picture after a grid: if the next grid, with three times as many
     /// points as all so far, would end too late.
     fn is_first_due(&self, step: &Step) -> bool {
-        let elapsed = self.ticket.built.elapsed();
+        let elapsed = self.token.built.elapsed();
         self.published.is_none() && (*step == Step::Grid(1) || FIRST_PICTURE <= 4 * elapsed)
     }
 
     /// Whether to publish a frame: often at first, less often later, and never so often that a
     /// large picture is mostly developed instead of traced.
     fn is_due(&self) -> bool {
-        let interval = match self.ticket.begun.elapsed().as_millis() {
+        let interval = match self.token.begun.elapsed().as_millis() {
             0..1000 => 33,
             1000..4000 => 100,
             4000..16_000 => 250,
@@ -304,8 +304,8 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
 
     fn publish(&mut self, shot: &FrameContext<'_>) {
         let begun = Instant::now();
-        let (ticket, published) = (self.ticket, self.published);
-        let unwanted = || ticket.unwanted(published);
+        let (token, published) = (self.token, self.published);
+        let unwanted = || token.unwanted(published);
         let raster = match self.job.frames {
             _ if self.complete => self.film.finish(unwanted),
             Frames::Live => self.film.develop(unwanted),
@@ -345,8 +345,8 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         }
         self.developing = begun.elapsed();
         let traced = self.job.settings.traced();
-        let untaken = self.ticket.shared.publish(Frame {
-            generation: self.ticket.generation,
+        let untaken = self.token.state.publish(Frame {
+            generation: self.token.generation,
             size: traced.size(),
             corner: traced.corner(),
             pixels,
@@ -368,8 +368,8 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
     /// The values of a raster with less noise, if the job asks for it and each pixel has a sample.
     fn denoised(&mut self, raster: &Raster, shot: &FrameContext<'_>) -> Option<Vec<[f32; 3]>> {
         let is_due = self.job.denoises() && 0 < self.whole_samples && !raster.values.is_empty();
-        let (ticket, published) = (self.ticket, self.published);
-        let unwanted = || ticket.unwanted(published);
+        let (token, published) = (self.token, self.published);
+        let unwanted = || token.unwanted(published);
         if !is_due {
             return None;
         }

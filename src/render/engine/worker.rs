@@ -7,16 +7,16 @@ use std::{iter, mem};
 
 use rayon::ThreadPool;
 
-use super::checkpoint::{Effort, Kept};
-use super::difference::difference;
+use super::checkpoint::{Checkpoint, Effort};
+use super::edit_difference::edit_difference;
 use super::film::Film;
 use super::pass_schedule::steps;
-use super::shared::Shared;
-use super::tracing::{Ticket, Tracing};
+use super::renderer_state::RendererState;
+use super::tracing::{JobToken, Tracing};
 use crate::integrators::{FrameContext, PhotonRules, Photons};
 use crate::job::{Frames, Job};
 use crate::picture::Query;
-use crate::world::{Dependencies, Rules, World};
+use crate::world::{Dependencies, World, WorldSettings};
 
 /// What the thread is asked for.
 pub(crate) enum Request {
@@ -25,7 +25,7 @@ pub(crate) enum Request {
     /// To drop a job that is not traced, which takes time for a large scene.
     Drop(Box<Job>),
     /// To send the newest picture, as far as it is traced, before it ends.
-    Keep(Sender<Kept>),
+    Keep(Sender<Checkpoint>),
 }
 
 /// The jobs that the worker has not begun: the newest, and before it those that recall a picture, which
@@ -55,7 +55,7 @@ pub(crate) struct Submission {
     pub(crate) job: Job,
     pub(crate) film: Film,
     /// Brings a picture that was kept of the job, or closes if there is none.
-    pub(crate) recalled: Option<Receiver<Kept>>,
+    pub(crate) recalled: Option<Receiver<Checkpoint>>,
 }
 
 /// Most pixels of a picture that is kept to be continued: about 1.5 GB.
@@ -75,14 +75,14 @@ struct Left {
 /// A job as far as it is traced.
 struct Traced {
     job: Job,
-    kept: Kept,
+    checkpoint: Checkpoint,
 }
 
 /// Traces jobs until the renderer is dropped or the thread panics.
 pub(crate) fn run<W: Fn() + Sync>(
     requests: &Receiver<Request>,
     submissions: &Submissions,
-    shared: &Shared,
+    state: &RendererState,
     wake: &W,
     pool: &ThreadPool,
 ) {
@@ -97,16 +97,16 @@ pub(crate) fn run<W: Fn() + Sync>(
             }
         }
         for submission in submissions.take() {
-            left = pool.install(|| trace(submission, shared, wake, left.take()));
+            left = pool.install(|| trace(submission, state, wake, left.take()));
         }
     }
     let (world, traced) = left.map_or((None, None), |left| {
         (Some((left.world, left.photons)), left.traced)
     });
-    let kept = traced.map(|traced| traced.kept);
-    let unwanted = match (keeper, kept) {
-        (Some(keeper), Some(kept)) => keeper.send(kept).err().map(|unsent| unsent.0),
-        (_, kept) => kept,
+    let checkpoint = traced.map(|traced| traced.checkpoint);
+    let unwanted = match (keeper, checkpoint) {
+        (Some(keeper), Some(checkpoint)) => keeper.send(checkpoint).err().map(|unsent| unsent.0),
+        (_, checkpoint) => checkpoint,
     };
     // In the background, because freeing the structures of a large scene takes up to 16 ms for a
     // million spheres.
@@ -121,7 +121,7 @@ pub(crate) fn run<W: Fn() + Sync>(
 /// Traces a job until it is complete or cancelled.
 fn trace<W: Fn() + Sync>(
     submission: Submission,
-    shared: &Shared,
+    state: &RendererState,
     wake: &W,
     previous: Option<Left>,
 ) -> Option<Left> {
@@ -131,17 +131,17 @@ fn trace<W: Fn() + Sync>(
         mut film,
         recalled,
     } = submission;
-    let ticket = Ticket::new(generation, shared);
+    let token = JobToken::new(generation, state);
     let (known, photons, traced) = match previous {
         Some(left) => (Some(left.world), left.photons, left.traced),
         None => (None, None, None),
     };
     // A newer job does not cancel the build: it may need the same structures, and while a held key
     // moves objects of a large scene, none would ever be finished.
-    let quit = || shared.is_quitting();
+    let quit = || state.is_quitting();
     let scene = Arc::clone(&job.scene);
-    let rules = Rules::of(&job.settings);
-    let world = World::build(scene, &job.images, rules, known.as_deref(), &quit);
+    let settings = WorldSettings::of(&job.settings);
+    let world = World::build(scene, &job.images, settings, known.as_deref(), &quit);
     let prepared = world.and_then(|world| {
         let before = known.as_deref().zip(photons.as_ref());
         let photons = match PhotonRules::of(&job.settings) {
@@ -153,7 +153,7 @@ fn trace<W: Fn() + Sync>(
     let Some((world, photons)) = prepared else {
         // The picture before is not the newest any more.
         if let Some(traced) = traced {
-            traced.kept.free_later();
+            traced.checkpoint.free_later();
         }
         return known.map(|world| Left {
             world,
@@ -163,17 +163,19 @@ fn trace<W: Fn() + Sync>(
     };
     let changed = |old: &Traced| {
         let before = known.as_deref()?;
-        difference((&old.job, before), (&job, &world))
+        edit_difference((&old.job, before), (&job, &world))
     };
-    let before = match traced.map(|old| (changed(&old), old.kept)) {
-        Some((Some(changed), kept)) if film.can_take_over(&kept) => film.take_over(kept, changed),
+    let before = match traced.map(|old| (changed(&old), old.checkpoint)) {
+        Some((Some(changed), checkpoint)) if film.can_take_over(&checkpoint) => {
+            film.take_over(checkpoint, changed)
+        }
         other => {
             if let Some((_, unfit)) = other {
                 unfit.free_later();
             }
-            match recalled.and_then(|recalled| await_kept(&recalled, quit)) {
-                Some(kept) if film.can_take_over(&kept) => {
-                    film.take_over(kept, Dependencies::NOTHING)
+            match recalled.and_then(|recalled| await_checkpoint(&recalled, quit)) {
+                Some(checkpoint) if film.can_take_over(&checkpoint) => {
+                    film.take_over(checkpoint, Dependencies::NOTHING)
                 }
                 _ => Effort::default(),
             }
@@ -182,17 +184,17 @@ fn trace<W: Fn() + Sync>(
     drop(known);
     let shot = FrameContext::new(&world, &job.camera, job.settings);
     let query = Query::new(&world, photons.as_ref(), &job);
-    let mut picture = Tracing::new(ticket.with_world(), &job, (film, before), wake, query);
+    let mut picture = Tracing::new(token.with_world(), &job, (film, before), wake, query);
     for step in steps(job.settings.spp, job.frames) {
         if !picture.take(&step, &shot, photons.as_deref()) {
             break;
         }
     }
-    let kept = picture.keep();
-    let traced = if job.frames == Frames::Live && kept.pixels() <= MOST_KEPT {
-        Some(Traced { job, kept })
+    let checkpoint = picture.into_checkpoint();
+    let traced = if job.frames == Frames::Live && checkpoint.pixels() <= MOST_KEPT {
+        Some(Traced { job, checkpoint })
     } else {
-        kept.free_later();
+        checkpoint.free_later();
         None
     };
     Some(Left {
@@ -204,10 +206,13 @@ fn trace<W: Fn() + Sync>(
 
 /// Waits for a picture to be recalled; `None` if there is none, or once `quit` returns true. A newer
 /// job does not end the wait, as it may continue the picture.
-fn await_kept(recalled: &Receiver<Kept>, quit: impl Fn() -> bool) -> Option<Kept> {
+fn await_checkpoint(
+    recalled: &Receiver<Checkpoint>,
+    quit: impl Fn() -> bool,
+) -> Option<Checkpoint> {
     while !quit() {
         match recalled.recv_timeout(POLL) {
-            Ok(kept) => return Some(kept),
+            Ok(checkpoint) => return Some(checkpoint),
             Err(RecvTimeoutError::Disconnected) => return None,
             Err(RecvTimeoutError::Timeout) => {}
         }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::record::{Crossing, LightTerm, UnlitReason};
-use crate::integrators::{Facing, Points};
+use crate::integrators::{LightGeometry, ShadingPoints};
 use crate::light::{Incoming, falloff_shares, incoming};
 use crate::material::Point;
 use crate::world::{Crossed, Nearest, Occlusion, World};
@@ -29,19 +29,19 @@ impl LitPoint<'_> {
         &self,
         number: usize,
         chosen: Option<Incoming<f64>>,
-        reflected: impl FnOnce(&Facing<f64>) -> Rgb,
+        reflected: impl FnOnce(&LightGeometry<f64>) -> Rgb,
         added: Rgb,
     ) -> Option<LightTerm> {
         let light = &self.world.lights()[number];
         let from = self.point.surface.point;
         let centre = incoming(light, from.into())?;
         let incoming = chosen.unwrap_or(centre);
-        let facing = Facing::new(&Points::from(self.point), light, incoming);
-        let toward = DVec3::from(facing.toward);
+        let to_light = LightGeometry::new(&ShadingPoints::from(self.point), light, incoming);
+        let toward = DVec3::from(to_light.toward);
         let [radial, spot] = shares(light, from, toward);
         let source = incoming.source.map(DVec3::from);
-        let reflected = if facing.is_lit {
-            reflected(&facing)
+        let reflected = if to_light.is_lit {
+            reflected(&to_light)
         } else {
             Rgb::ZERO
         };
@@ -51,7 +51,7 @@ impl LitPoint<'_> {
             chance: 1.0,
             toward,
             distance: source.map_or(f64::INFINITY, |source| source.distance(from)),
-            cosine: facing.cosine,
+            cosine: to_light.cosine,
             radial,
             spot,
             arriving,
@@ -64,7 +64,7 @@ impl LitPoint<'_> {
         };
         // Otherwise the integrators ask for no shadow.
         let is_asked = reflected != Rgb::ZERO && radial * spot != 0.0;
-        if let Some(shadow) = facing.shadow.filter(|_| is_asked) {
+        if let Some(shadow) = to_light.shadow.filter(|_| is_asked) {
             let ray = Ray {
                 origin: shadow.rays.origin.into(),
                 direction: shadow.rays.direction.into(),

@@ -20,8 +20,8 @@ use glam::DVec3;
 
 use super::integrators::{FrameContext, PhotonRules, Photons, Sample};
 use super::job::{Job, Settings};
-use super::picture::{Light, Query, Tone};
-use super::world::{Projection, Rules, World};
+use super::picture::{DisplayTransform, Query, Tone};
+use super::world::{Projection, World, WorldSettings};
 use judge::Case;
 use scene::{Integrator, MAX_SPP};
 
@@ -48,7 +48,7 @@ impl PreparedScene {
         let world = World::build(
             scene,
             &job.images,
-            Rules::of(&job.settings),
+            WorldSettings::of(&job.settings),
             None,
             &cancelled,
         )?;
@@ -128,7 +128,7 @@ impl Query {
             world: &world,
             projection: &Projection::new(&self.camera, settings.size),
             rays: &rays,
-            light: Light::of(&settings),
+            display: DisplayTransform::of(&settings),
             stops: settings.exposure,
             integrator: settings.integrator,
             depth: settings.depth,
@@ -139,7 +139,7 @@ impl Query {
             integrator: settings.integrator,
             depth: settings.depth,
             radiance,
-            displayed: Tone::Colour(case.light).bytes(radiance),
+            displayed: Tone::Colour(case.display).bytes(radiance),
             verdicts: judge::judge(&case),
             rays,
         };
@@ -157,7 +157,7 @@ impl Query {
         let nearest = world.nearest(&ray, reach);
         let mut mapped = None;
         let surface = nearest.map(|nearest| {
-            let (point, _) = world.arrive(&ray, nearest, &mut mapped);
+            let (point, _) = world.shading_point(&ray, nearest, &mut mapped);
             let mut hit = surface::surface_hit(&world, &ray, nearest, &point);
             if let Some(numbers) = &self.numbers {
                 hit.object = named(numbers, hit.object);

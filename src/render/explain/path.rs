@@ -11,12 +11,13 @@ use super::surface::{missing_around, shading};
 use crate::integrators::path::{
     Aimed, Continuation, EmitterArrival, Path, PathHit, PathWave, Vertices, add_caustics,
     add_emitting_objects, add_light, add_one_of_many, add_sky, aim_at_object, aim_at_sky,
-    choose_light, density_of, emission, follow, go_on_from, meet, samples_emitters,
+    choose_light, classify_hit, density_of, emission, samples_emitters, shade_and_continue,
+    trace_rays,
 };
-use crate::integrators::{Facing, PhotonMap, Probe, Sample, SampleResult, Vertex};
+use crate::integrators::{LightGeometry, PhotonMap, Probe, Sample, SampleResult, Vertex};
 use crate::light::{Incoming, SphereLight, light_sphere, luminous_sphere};
 use crate::material::{Component, transmitted};
-use crate::sampling::{Densities, Use};
+use crate::sampling::{Densities, Purpose};
 use crate::world::World;
 use geometry::lanes::Vector;
 use scene::Rgb;
@@ -93,9 +94,9 @@ impl<C: Fn() -> bool> Trace<'_, C> {
         } = self;
         let world = probe.world;
         let mut path = wave.paths[0];
-        let hits = follow(probe, wave, samples, seen);
+        let hits = trace_rays(probe, wave, samples, seen);
         let nearest = wave.nearest[0].get(0);
-        match meet(probe, &mut path, &samples[0], nearest) {
+        match classify_hit(probe, &mut path, &samples[0], nearest) {
             PathHit::Nothing(radiance) => {
                 let screen = samples[0].screen;
                 let missed = RayEnd::Missed {
@@ -173,10 +174,10 @@ impl<C: Fn() -> bool> Trace<'_, C> {
         } = self;
         add_caustics(probe, vertices, &mut wave.sums, path.bounce);
         shading.caustics = wave.sums[0].of_photons;
-        let numbers = wave.draws.four(Use::Bounce, world.level)[0];
+        let numbers = wave.draws.four(Purpose::Bounce, world.level)[0];
         let by_lobes = vertices[0].sample(world.level, &numbers);
         let batch = (&vertices[0], &numbers, &by_lobes);
-        let departure = go_on_from(
+        let departure = shade_and_continue(
             probe,
             batch,
             0,
@@ -216,7 +217,7 @@ impl<C: Fn() -> bool> Trace<'_, C> {
             } = self;
             let sampling = (&mut wave.draws, &mut wave.of_lights);
             add_light(probe, number, vertices, &mut wave.sums, sampling, seen);
-            let purpose = Use::Light(number as u32);
+            let purpose = Purpose::Light(number as u32);
             self.light((number, 1.0), purpose, &vertices[0], shading);
         }
         if world.many_lights.is_empty() {
@@ -227,9 +228,9 @@ impl<C: Fn() -> bool> Trace<'_, C> {
         } = self;
         let sampling = (&mut wave.draws, &mut wave.of_lights);
         add_one_of_many(probe, vertices, &mut wave.sums, sampling, seen);
-        let numbers = wave.draws.four(Use::ManyLights, world.level)[0];
+        let numbers = wave.draws.four(Purpose::ManyLights, world.level)[0];
         if let [Some(chosen), ..] = choose_light(world, &vertices[0], &numbers, ONE) {
-            self.light(chosen, Use::ManyLights, &vertices[0], shading);
+            self.light(chosen, Purpose::ManyLights, &vertices[0], shading);
         }
         Some(())
     }
@@ -239,7 +240,7 @@ impl<C: Fn() -> bool> Trace<'_, C> {
     fn light(
         &mut self,
         chosen: (usize, f64),
-        purpose: Use,
+        purpose: Purpose,
         vertices: &Vertices<'_, '_>,
         shading: &mut Shading,
     ) {
@@ -274,7 +275,7 @@ impl<C: Fn() -> bool> Trace<'_, C> {
         let sampling = (&mut wave.draws, &mut wave.of_emitters);
         let sums = &mut wave.sums;
         add_emitting_objects(probe, (vertices, &[ONE]), sums, sampling, seen);
-        let numbers = wave.draws.four(Use::Emitter, world.level)[0];
+        let numbers = wave.draws.four(Purpose::Emitter, world.level)[0];
         let (choices, aimed) = aim_at_object(world, &vertices[0], &numbers, ONE);
         if choices.lanes & ONE != 0 {
             let (object, _) = choices.parts[0];
@@ -297,7 +298,7 @@ impl<C: Fn() -> bool> Trace<'_, C> {
         }
         let sampling = (&mut wave.draws, &mut wave.of_emitters);
         add_sky(probe, (vertices, &[ONE]), &mut wave.sums, sampling, seen);
-        let numbers = wave.draws.four(Use::Sky, world.level)[0];
+        let numbers = wave.draws.four(Purpose::Sky, world.level)[0];
         let (lanes, aimed) = aim_at_sky(world, &vertices[0], &numbers, ONE);
         if lanes & ONE != 0 {
             let arrival = wave.of_emitters.of_sky(world).next();
@@ -335,7 +336,7 @@ fn light_term<C>(
         let scattered = bsdf.lobes.scatter(point, toward);
         scattered.value + bsdf.lobes.highlight(point, toward)
     };
-    let reflected = |facing: &Facing<f64>| light.scale * scattered(facing.toward.into());
+    let reflected = |to_light: &LightGeometry<f64>| light.scale * scattered(to_light.toward.into());
     let from = point.surface.point;
     let chosen = light_sphere(light).and_then(|sphere| sphere.choose(from, place));
     let mut term = lit.term(number, chosen, reflected, added)?;

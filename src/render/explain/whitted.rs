@@ -8,8 +8,8 @@ use super::lights::LitPoint;
 use super::record::{RayEnd, Shading, Stop, TracedRay};
 use super::recorder::Recorder;
 use super::surface::{missing_around, shading};
-use crate::integrators::whitted::{Secondary, add_light, branch, follow};
-use crate::integrators::{Facing, Probe, RayState, Sample, SampleResult, WhittedWave};
+use crate::integrators::whitted::{Secondary, add_light, branch, trace_front};
+use crate::integrators::{LightGeometry, Probe, RayState, Sample, SampleResult, WhittedWave};
 use crate::light::light_sphere;
 use crate::material::reflectance;
 use crate::world::World;
@@ -74,7 +74,7 @@ impl<C: Fn() -> bool> Trace<'_, C> {
         }
         let next = (wave.front.rays[0].ray(0), wave.front.states[0]);
         let before = seen[0].radiance;
-        follow(probe, wave, samples, seen);
+        trace_front(probe, wave, samples, seen);
         let waiting = self.waiting.pop();
         let state = next.1;
         let reach = wave.front.rays[0].ends.0[0];
@@ -195,10 +195,10 @@ impl<C: Fn() -> bool> Trace<'_, C> {
             let from = point.surface.point;
             let sampler = samples[0].sampler;
             let chosen = sphere.and_then(|sphere| state.choose((number, &sphere), from, sampler));
-            let reflected = |facing: &Facing<f64>| {
-                let toward = DVec3::from(facing.toward);
+            let reflected = |to_light: &LightGeometry<f64>| {
+                let toward = DVec3::from(to_light.toward);
                 let halfway = || point.normal.dot((toward + point.view).normalize());
-                reflectance(material, facing.cosine, facing.mirrored, halfway)
+                reflectance(material, to_light.cosine, to_light.mirrored, halfway)
             };
             let added = match (wave.unblocked.first(), wave.transmittances.first()) {
                 (Some(_), Some(0.0)) => Rgb::ZERO,

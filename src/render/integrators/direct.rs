@@ -10,7 +10,7 @@ use scene::{Light, Rgb, Shadows};
 
 /// Points to light, in each lane.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Points<N> {
+pub(crate) struct ShadingPoints<N> {
     pub(crate) surface: Surfaces<N>,
     /// Shading normals.
     pub(crate) normal: Vector<N>,
@@ -20,7 +20,7 @@ pub(crate) struct Points<N> {
 
 /// The geometry of a light relative to points, in each lane.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Facing<N: Lanes> {
+pub(crate) struct LightGeometry<N: Lanes> {
     /// Unit vectors toward the light.
     pub(crate) toward: Vector<N>,
     /// Cosines to the shading normals.
@@ -41,7 +41,7 @@ pub(crate) struct Shadow<N> {
     pub(crate) ends: N,
 }
 
-impl From<&Point> for Points<f64> {
+impl From<&Point> for ShadingPoints<f64> {
     fn from(point: &Point) -> Self {
         Self {
             surface: point.surface.into(),
@@ -51,10 +51,10 @@ impl From<&Point> for Points<f64> {
     }
 }
 
-impl<N: Lanes> Facing<N> {
+impl<N: Lanes> LightGeometry<N> {
     /// Relates points to the light that arrives at them.
     #[inline(always)]
-    pub(crate) fn new(points: &Points<N>, light: &Light, incoming: Incoming<N>) -> Self {
+    pub(crate) fn new(points: &ShadingPoints<N>, light: &Light, incoming: Incoming<N>) -> Self {
         let toward = incoming.toward;
         let cosine = points.normal.dot(toward);
         let mirrored = points.normal.scaled(cosine.all(2.0) * cosine) - toward;

@@ -31,7 +31,7 @@ pub(crate) fn first_hit(
         };
     };
     let mut mapped = None;
-    let (point, material) = world.arrive(ray, nearest, &mut mapped);
+    let (point, material) = world.shading_point(ray, nearest, &mut mapped);
     let value = match aov {
         Aov::Depth => DVec3::splat(skipped + nearest.hit.t),
         Aov::Normal => point.normal,
@@ -100,7 +100,7 @@ pub(crate) fn guide(world: &World, sample: &Sample, skipped: f64, integrator: In
         return Guide::default();
     };
     let mut mapped = None;
-    let (point, material) = world.arrive(&sample.ray, nearest, &mut mapped);
+    let (point, material) = world.shading_point(&sample.ray, nearest, &mut mapped);
     Guide {
         normal: point.normal.as_vec3().to_array(),
         albedo: material.albedo().as_vec3().to_array(),

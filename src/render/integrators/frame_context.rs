@@ -6,7 +6,7 @@ use super::photon::PhotonMaps;
 use super::probe::Sample;
 use crate::job::Settings;
 use crate::light::light_sphere;
-use crate::sampling::{Sampler, Spread, Use};
+use crate::sampling::{FilterSampler, Purpose, Sampler};
 use crate::world::{Projection, World};
 use geometry::lanes::{Eight, Lanes, Row, Simd, SimdBase, WIDTH, dispatch};
 use scene::{Camera, Integrator};
@@ -23,7 +23,7 @@ pub(crate) struct FrameContext<'w> {
     /// Render settings.
     pub(crate) settings: Settings,
     /// The pixel filter.
-    pub(crate) spread: Spread,
+    pub(crate) filter: FilterSampler,
     /// The photons of the samples, if there are to be any.
     pub(crate) photons: Option<&'w PhotonMaps>,
 }
@@ -36,7 +36,7 @@ impl<'w> FrameContext<'w> {
             projection: Projection::new(camera, settings.size),
             eye: camera.eye,
             settings,
-            spread: Spread::of(settings.filter),
+            filter: FilterSampler::of(settings.filter),
             photons: None,
         }
     }
@@ -80,7 +80,7 @@ impl FrameContext<'_> {
         let (mut corners, mut places) = ([Row::all(0.0); 2], [Row::all(0.0); 2]);
         for (lane, [x, y]) in pixels.iter().map(placed).enumerate() {
             let sampler = Sampler::new(x, y, index, seed);
-            let place = self.spread.place(sampler.place_in_pixel());
+            let place = self.filter.place(sampler.place_in_pixel());
             for (axis, pixel) in [x, y].into_iter().enumerate() {
                 corners[axis].0[lane] = pixel.into();
                 places[axis].0[lane] = f64::from(pixel) + place[axis];
@@ -129,10 +129,10 @@ impl FrameContext<'_> {
         match (self.settings.integrator, self.settings.surface()) {
             // An unbiased sample must not use the centre.
             (Integrator::Path | Integrator::Photon, None) => {
-                let [u, v, ..] = sampler.four(Sampler::ROOT, Use::Lens);
+                let [u, v, ..] = sampler.four(Sampler::ROOT, Purpose::Lens);
                 Some([u, v])
             }
-            _ => sampler.pair(Sampler::ROOT, Use::Lens),
+            _ => sampler.pair(Sampler::ROOT, Purpose::Lens),
         }
     }
 }

@@ -18,7 +18,7 @@ mod tracer;
 mod vertex;
 pub(crate) mod whitted;
 
-pub(crate) use direct::{Facing, Points};
+pub(crate) use direct::{LightGeometry, ShadingPoints};
 pub(crate) use first_hit::{Guide, first_hit, guide};
 pub(crate) use frame_context::FrameContext;
 pub(crate) use light_component::LightComponent;

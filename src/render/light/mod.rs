@@ -5,7 +5,7 @@ mod emitters;
 pub(crate) mod lights;
 mod sky;
 
-pub(crate) use emitters::{Choices, Emitters, Known, ManyLights};
+pub(crate) use emitters::{Choices, Emitters, ManyLights, PreviousEmitters};
 pub(crate) use lights::{
     Incoming, SphereLight, SphereLights, Spheres, faded, falloff_shares, incoming, incoming_each,
     light_sphere, luminous_sphere, radiant_intensity,

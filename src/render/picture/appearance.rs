@@ -1,7 +1,7 @@
 //! How the small picture of a trial looks: too dark, too bright, alike all over, or as it should.
 
 use super::frame::Frame;
-use super::tone::{Light, Tone};
+use super::tone::{DisplayTransform, Tone};
 use crate::job::NO_OBJECT;
 use scene::{Rgb, Transfer};
 
@@ -61,11 +61,11 @@ impl Appearance {
         shown: &Shown,
         (stops, transfer): (f64, Transfer),
     ) -> Self {
-        let light = Light::new(stops, transfer);
+        let display = DisplayTransform::new(stops, transfer);
         let linear = |value: &[f32; 3]| Rgb::from(value.map(f64::from));
-        let is_above = |value: &&[f32; 3]| 1.0 < light.exposed(linear(value)).max_element();
+        let is_above = |value: &&[f32; 3]| 1.0 < display.exposed(linear(value)).max_element();
         let above = values.iter().filter(is_above).count();
-        let tone = Tone::Colour(light);
+        let tone = Tone::Colour(display);
         let bytes: Vec<_> = values
             .iter()
             .map(|value| tone.bytes(linear(value)))

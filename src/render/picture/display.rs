@@ -4,8 +4,8 @@
 use rayon::prelude::*;
 
 use super::frame::Frame;
-use super::ramp::heat;
-use super::tone::{Light, Tone, to_bytes};
+use super::heat_map::heat;
+use super::tone::{DisplayTransform, Tone, to_bytes};
 use crate::job::Aov;
 use scene::{Rgb, Transfer};
 
@@ -72,15 +72,15 @@ impl Display {
             (false, true) => return None,
         };
         let transfer = self.transfer.unwrap_or(settings.transfer);
-        let light = Light::new(self.stops(), transfer);
+        let display = DisplayTransform::new(self.stops(), transfer);
         let pixels = (0..shown.len()).into_par_iter().map(|at| {
             if undenoised.is_neutral() && shown[at] == frame.values[at] {
                 return frame.pixels[at];
             }
             let value = Rgb::from(shown[at].map(f64::from));
             match self.colours {
-                Colours::True => Tone::Colour(light).bytes(value),
-                Colours::False => false_colour(luminance(light.exposed(value))),
+                Colours::True => Tone::Colour(display).bytes(value),
+                Colours::False => false_colour(luminance(display.exposed(value))),
             }
         });
         Some(pixels.collect())

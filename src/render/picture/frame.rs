@@ -1,13 +1,11 @@
 //! A picture as far as it is traced.
 
-use std::sync::{Arc, Weak};
 use std::time::Duration;
 
 use super::overexposure::Overexposure;
-use crate::integrators::Photons;
+use super::query::Query;
 use crate::job::Settings;
-use crate::world::World;
-use scene::{Camera, Size};
+use scene::Size;
 
 /// A picture as far as it is traced.
 #[derive(Clone, Debug)]
@@ -43,35 +41,6 @@ pub struct Frame {
     pub progress: Progress,
     /// Answers what its pixels show; `None` if it was not traced.
     pub query: Option<Query>,
-}
-
-/// A handle by which pixels of a frame are traced again and explained.
-///
-/// It keeps nothing alive: it answers as long as the renderer holds the scene prepared, which may end
-/// once a later job is given.
-#[derive(Clone, Debug)]
-pub struct Query {
-    pub(crate) world: Weak<World>,
-    /// Where photons are traced.
-    pub(crate) photons: Weak<Photons>,
-    /// The camera that it shows.
-    pub camera: Camera,
-    /// What it was traced with.
-    pub settings: Settings,
-    pub(crate) numbers: Option<Arc<[u32]>>,
-}
-
-impl Query {
-    /// One without answers, like that of a renderer that was dropped.
-    pub fn unanswered(camera: Camera, settings: Settings) -> Self {
-        Self {
-            world: Weak::new(),
-            photons: Weak::new(),
-            camera,
-            settings,
-            numbers: None,
-        }
-    }
 }
 
 impl Frame {

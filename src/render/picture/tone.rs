@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::frame::Frame;
-use super::ramp::heat;
+use super::heat_map::heat;
 use crate::job::{Aov, Settings};
 use scene::{Rgb, Transfer};
 
@@ -13,13 +13,13 @@ const SIDES: [[u8; 3]; 2] = [[0, 114, 178], [213, 94, 0]];
 
 /// How linear light is displayed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Light {
+pub(crate) struct DisplayTransform {
     /// What colours are multiplied by; `None` leaves every bit.
     scale: Option<f64>,
     transfer: Transfer,
 }
 
-impl Light {
+impl DisplayTransform {
     pub(crate) fn of(settings: &Settings) -> Self {
         Self::new(settings.exposure, settings.transfer)
     }
@@ -63,7 +63,7 @@ impl Light {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Tone {
     /// A linear colour.
-    Colour(Light),
+    Colour(DisplayTransform),
     /// A distance: the nearest is white, the farthest black, infinity black too.
     Depth { nearest: f64, farthest: f64 },
     /// A unit vector with components from −1 to 1; zero is black.
@@ -82,11 +82,11 @@ pub(crate) enum Tone {
 
 impl Tone {
     /// The mapping of light, or of an AOV on a scale with these ends.
-    pub(crate) fn of(aov: Option<Aov>, light: Light, range: Option<[f64; 2]>) -> Self {
+    pub(crate) fn of(aov: Option<Aov>, display: DisplayTransform, range: Option<[f64; 2]>) -> Self {
         let [least, most] = range.unwrap_or([0.0; 2]);
         match aov {
             None | Some(Aov::Albedo | Aov::Direct(_) | Aov::Emission | Aov::Indirect) => {
-                Self::Colour(light)
+                Self::Colour(display)
             }
             Some(Aov::Normal) => Self::Normal,
             Some(Aov::Object) => Self::Number,
@@ -104,7 +104,7 @@ impl Tone {
     /// The linear value after exposure, if it has one.
     pub(crate) fn linear(self, value: Rgb) -> Rgb {
         match self {
-            Self::Colour(light) => light.exposed(value),
+            Self::Colour(display) => display.exposed(value),
             _ => value,
         }
     }
@@ -113,7 +113,7 @@ impl Tone {
     #[inline]
     pub(crate) fn bytes(self, value: Rgb) -> [u8; 3] {
         match self {
-            Self::Colour(light) => to_bytes(light.curved(value)),
+            Self::Colour(display) => to_bytes(display.curved(value)),
             Self::Depth { .. } if value.x == f64::INFINITY => [0; 3],
             Self::Depth { nearest, farthest } if nearest < farthest => {
                 to_bytes((farthest - value) / (farthest - nearest))
@@ -142,7 +142,7 @@ impl Frame {
         }
         let transfer = self.settings().map(|settings| settings.transfer);
         // The exposure is in the values.
-        let tone = Tone::Colour(Light::new(0.0, transfer.unwrap_or_default()));
+        let tone = Tone::Colour(DisplayTransform::new(0.0, transfer.unwrap_or_default()));
         let bytes = |value: &[f32; 3]| tone.bytes(Rgb::from(value.map(f64::from)));
         self.values.iter().map(bytes).fold(0, brightest)
     }
@@ -213,7 +213,7 @@ mod tests {
     /// From the standard's table: 128 / 255 is linear 0.21586; 0.003 lies in the linear segment.
     #[test]
     fn the_srgb_curve_matches_the_standard() {
-        let tone = Tone::Colour(Light::new(0.0, Transfer::Srgb));
+        let tone = Tone::Colour(DisplayTransform::new(0.0, Transfer::Srgb));
         for (linear, byte) in [
             (0.0, 0),
             (1.0, 255),
@@ -237,15 +237,15 @@ mod tests {
             (0.0, f64::MIN_POSITIVE, 0),
             (60.0, 1e-18, 255),
         ] {
-            let light = Light::new(stops, Transfer::Linear);
-            let tone = Tone::Colour(light);
+            let display = DisplayTransform::new(stops, Transfer::Linear);
+            let tone = Tone::Colour(display);
             assert_eq!(tone.bytes(Rgb::splat(linear)), [bytes; 3], "{stops}");
         }
         assert_eq!(
-            Light::new(2.0, Transfer::Srgb).exposed(Rgb::ONE),
+            DisplayTransform::new(2.0, Transfer::Srgb).exposed(Rgb::ONE),
             Rgb::splat(4.0)
         );
-        assert_eq!(Light::new(0.0, Transfer::Linear).scale, None);
+        assert_eq!(DisplayTransform::new(0.0, Transfer::Linear).scale, None);
     }
 
     #[test]

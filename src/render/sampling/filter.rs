@@ -41,12 +41,12 @@ fn within(filter: Filter, distance: f64) -> f64 {
 
 /// A filter prepared for placing samples.
 #[derive(Clone, Debug)]
-pub(crate) struct Spread {
+pub(crate) struct FilterSampler {
     /// The fraction of the filter within each step; empty for the box filter.
     shares: Vec<f64>,
 }
 
-impl Spread {
+impl FilterSampler {
     /// Prepares a filter.
     pub(crate) fn of(filter: Filter) -> Self {
         let at = |step| within(filter, RADIUS * step as f64 / STEPS as f64);
@@ -92,8 +92,8 @@ mod tests {
     }
 
     /// The warped place along one axis.
-    fn place(spread: &Spread, even: f64) -> f64 {
-        let [across, down] = spread.place([even, 1.0 - even]);
+    fn place(filter_sampler: &FilterSampler, even: f64) -> f64 {
+        let [across, down] = filter_sampler.place([even, 1.0 - even]);
         // Near the ends, the inverse magnifies rounding errors a thousandfold.
         assert!((across + down - 1.0).abs() < 1e-11, "{even}");
         across
@@ -101,9 +101,9 @@ mod tests {
 
     #[test]
     fn the_box_filter_is_the_identity() {
-        let spread = Spread::of(Filter::Box);
+        let filter_sampler = FilterSampler::of(Filter::Box);
         for even in even(1000) {
-            assert_eq!(spread.place([even, 0.1]), [even, 0.1]);
+            assert_eq!(filter_sampler.place([even, 0.1]), [even, 0.1]);
         }
     }
 
@@ -119,9 +119,9 @@ mod tests {
         };
         let window = 9.0 * (1.0 / 12.0 + wave(1) + wave(2) + wave(3));
         for (filter, variance) in WIDE.into_iter().zip([gaussian, window]) {
-            let spread = Spread::of(filter);
+            let filter_sampler = FilterSampler::of(filter);
             let count = 1 << 14;
-            let off = || even(count).map(|even| place(&spread, even) - 0.5);
+            let off = || even(count).map(|even| place(&filter_sampler, even) - 0.5);
             let mean = off().sum::<f64>() / f64::from(count);
             let square = off().map(|off| off * off).sum::<f64>() / f64::from(count);
             assert!(mean.abs() < 1e-12, "{filter:?}: {mean}");
@@ -133,17 +133,20 @@ mod tests {
     #[test]
     fn places_increase_monotonically_and_the_centre_is_fixed() {
         for filter in WIDE {
-            let spread = Spread::of(filter);
+            let filter_sampler = FilterSampler::of(filter);
             let mut last = -RADIUS;
             for even in even(10_000) {
-                let off = place(&spread, even) - 0.5;
+                let off = place(&filter_sampler, even) - 0.5;
                 assert!(last < off && off < RADIUS, "{filter:?} {even}: {off}");
                 let share = within(filter, off.abs());
                 assert!((share - (2.0 * even - 1.0).abs()).abs() < 1e-4);
                 last = off;
             }
-            assert_eq!(spread.place([0.5; 2]), [0.5; 2]);
-            assert_eq!(spread.place([0.0, 1.0]), [0.5 - RADIUS, 0.5 + RADIUS]);
+            assert_eq!(filter_sampler.place([0.5; 2]), [0.5; 2]);
+            assert_eq!(
+                filter_sampler.place([0.0, 1.0]),
+                [0.5 - RADIUS, 0.5 + RADIUS]
+            );
         }
     }
 }

@@ -52,7 +52,7 @@ pub(crate) struct Draws {
 
 impl Draws {
     /// The numbers of [`Sampler::four`] of each sampler.
-    pub(crate) fn four(&mut self, purpose: Use, level: Level) -> &[Fours] {
+    pub(crate) fn four(&mut self, purpose: Purpose, level: Level) -> &[Fours] {
         self.numbers.clear();
         dispatch!(level, simd => {
             for samplers in self.samplers.chunks(WIDTH) {
@@ -66,7 +66,7 @@ impl Draws {
 
 /// The purpose of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Use {
+pub(crate) enum Purpose {
     /// The point on the lens.
     Lens,
     /// The spread of a reflected ray.
@@ -89,7 +89,7 @@ pub(crate) enum Use {
     Emission,
 }
 
-impl Use {
+impl Purpose {
     fn number(self) -> u32 {
         match self {
             Self::Lens => 0,
@@ -150,7 +150,7 @@ impl Sampler {
 
     /// Two numbers in 0..1 for a purpose at a node; `None` for sample 0, which takes the centre of
     /// every distribution.
-    pub(crate) fn pair(self, node: u32, purpose: Use) -> Option<[f64; 2]> {
+    pub(crate) fn pair(self, node: u32, purpose: Purpose) -> Option<[f64; 2]> {
         if self.index == 0 {
             return None;
         }
@@ -161,7 +161,7 @@ impl Sampler {
     /// Four numbers in 0..1 for a purpose at a node, at any index. The first two together are
     /// distributed best: with them for directions, paths have 2 to 5 % less squared error than with
     /// the next two.
-    pub(crate) fn four(self, node: u32, purpose: Use) -> [f64; 4] {
+    pub(crate) fn four(self, node: u32, purpose: Purpose) -> [f64; 4] {
         let seed = mix(self.pixel_seed() ^ node).wrapping_add(STEP) ^ purpose.number();
         four(self.index, mix(seed)).map(f64::from)
     }
@@ -195,7 +195,7 @@ fn point(index: u32) -> Int4 {
 
 /// [`Sampler::four`] in each lane.
 #[inline(always)]
-fn four_together<S: Simd>(simd: S, samplers: &[Sampler], (node, purpose): (u32, Use)) -> Fours {
+fn four_together<S: Simd>(simd: S, samplers: &[Sampler], (node, purpose): (u32, Purpose)) -> Fours {
     let all = |number| Words::splat(simd, number);
     let mut pixels = [[0; WIDTH]; 2];
     for (lane, sampler) in samplers.iter().enumerate() {
@@ -329,7 +329,8 @@ mod tests {
     fn lanes_hold_the_same_numbers() {
         let best = Level::new();
         for level in [Level::baseline(), best] {
-            for (seed, index, purpose) in [(0, 1, Use::Bounce), (7, 65_535, Use::Light(3))] {
+            for (seed, index, purpose) in [(0, 1, Purpose::Bounce), (7, 65_535, Purpose::Light(3))]
+            {
                 let sampler = |x| Sampler::new(x, 3 * x, index, seed);
                 let mut draws = Draws {
                     node: 5,

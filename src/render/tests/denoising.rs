@@ -93,7 +93,7 @@ fn large_live_pictures_are_continued_as_they_are() {
     let remembers = |frames, denoise| Remembers::of(&settings(4096, 2048, 1), frames, denoise);
     assert_eq!(remembers(Frames::Live, true), Remembers::Pixels);
     assert_eq!(remembers(Frames::Last, false), Remembers::Pixels);
-    assert_eq!(remembers(Frames::Last, true), Remembers::Causes);
+    assert_eq!(remembers(Frames::Last, true), Remembers::Histories);
     let bytes =
         |width, height, denoise| Film::bytes(&settings(width, height, 1), Frames::Last, denoise);
     assert!(bytes(800, 600, true) < bytes(800, 600, false) + 800 * 600 * 200);

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use super::meshes::{mesh, square};
 use super::*;
-use crate::engine::{Film, difference, steps};
+use crate::engine::{Film, edit_difference, steps};
 use crate::integrators::{Counts, FrameContext};
 use crate::{Aov, Progress};
 use geometry::{Csg, Instance, Node, Operation};
@@ -14,9 +14,13 @@ use scene::{Dielectric, Emitter, Faces, Falloff, Gloss, Highlight, Image, Mirror
 
 fn built(job: &Job, known: Option<&World>) -> Option<World> {
     let scene = Arc::clone(&job.scene);
-    World::build(scene, &job.images, Rules::of(&job.settings), known, &|| {
-        false
-    })
+    World::build(
+        scene,
+        &job.images,
+        WorldSettings::of(&job.settings),
+        known,
+        &|| false,
+    )
 }
 
 /// A job in progress, taken step by step.
@@ -42,9 +46,9 @@ impl Easel {
     /// Continues with another job, reusing what it can.
     fn turn_to(&mut self, job: Job) {
         let world = built(&job, Some(&self.world)).expect("nothing cancels");
-        let changed = difference((&self.job, &self.world), (&job, &world));
+        let changed = edit_difference((&self.job, &self.world), (&job, &world));
         let film = Film::new(&job.settings, job.frames, job.denoise).expect("memory is there");
-        let old = std::mem::replace(&mut self.film, film).keep(Duration::ZERO);
+        let old = std::mem::replace(&mut self.film, film).into_checkpoint(Duration::ZERO);
         if Arc::ptr_eq(&self.world.emitters, &world.emitters) || !self.is_by_path() {
             self.film
                 .take_over(old, changed.expect("materials and colours of lights"));
@@ -391,7 +395,7 @@ fn other_edits_trace_everything_again() {
         let known = Some(&before.world);
         let world = built(&job, known);
         let world = world.expect("nothing cancels");
-        difference((&before.job, &before.world), (&job, &world))
+        edit_difference((&before.job, &before.world), (&job, &world))
     };
     let of_scene = |change: &dyn Fn(&mut Scene)| {
         let mut scene = scene.clone();

@@ -9,24 +9,24 @@ use super::edits::Easel;
 use super::noise::wall;
 use super::progress::{still, trace};
 use super::*;
-use crate::engine::Kept;
-use crate::{Aov, Block, BlockTracer, Cause, Counts, Region};
+use crate::engine::Checkpoint;
+use crate::{Aov, Block, BlockTracer, Counts, PixelHistory, Region};
 
-fn blocks_of(kept: &Kept) -> Vec<Block> {
+fn blocks_of(kept: &Checkpoint) -> Vec<Block> {
     kept.blocks().collect()
 }
 
-fn read(blocks: &[Block], job: &Job) -> std::io::Result<Kept> {
+fn read(blocks: &[Block], job: &Job) -> std::io::Result<Checkpoint> {
     let blocks = blocks.iter().cloned().map(Ok);
-    Kept::of(blocks, Duration::from_secs(1), job)
+    Checkpoint::of(blocks, Duration::from_secs(1), job)
 }
 
 /// In blocks and back.
-fn recalled(kept: &Kept, job: &Job) -> Receiver<Kept> {
+fn recalled(kept: &Checkpoint, job: &Job) -> Receiver<Checkpoint> {
     from_blocks(&blocks_of(kept), job)
 }
 
-fn from_blocks(blocks: &[Block], job: &Job) -> Receiver<Kept> {
+fn from_blocks(blocks: &[Block], job: &Job) -> Receiver<Checkpoint> {
     let (send, recalled) = mpsc::channel();
     let kept = read(blocks, job).expect("they are of the picture");
     send.send(kept).expect("it is there");
@@ -74,7 +74,7 @@ fn a_picture_cancelled_in_a_pass_continues_to_the_same_picture() {
                 break;
             }
             cancelled += 1;
-            let kept = easel.film.keep(Duration::ZERO);
+            let kept = easel.film.into_checkpoint(Duration::ZERO);
             with_leftovers += kept
                 .tiles
                 .iter()
@@ -116,7 +116,7 @@ fn another_renderer_continues_a_picture_that_was_running_or_paused() {
     let job = job(&still(), settings(160, 120, 16));
     let alone = trace(&job.scene, job.settings, 2);
     let mut rays = 0;
-    let mut kept: Option<Kept> = None;
+    let mut kept: Option<Checkpoint> = None;
     for is_paused in [false, true] {
         let mut first = match kept.take() {
             None => begun(&job),
@@ -131,7 +131,7 @@ fn another_renderer_continues_a_picture_that_was_running_or_paused() {
         if is_paused {
             first.pause();
         }
-        let left = first.keep().expect("it is begun");
+        let left = first.into_checkpoint().expect("it is begun");
         // All of it only if this thread had to wait long.
         assert!(0 < left.samples() && left.samples() <= 160 * 120 * 16);
         let counts = left.tiles.iter().map(|tile| tile.counts.rays);
@@ -159,7 +159,7 @@ fn a_complete_picture_is_shown_at_once_and_gets_more_samples() {
     let (mut one, woken) = renderer(2);
     let generation = restart(&mut one, first);
     finish(&one, &woken, generation);
-    let kept = one.keep().expect("it is complete");
+    let kept = one.into_checkpoint().expect("it is complete");
     assert_eq!((kept.samples(), kept.spp()), (40 * 30 * 4, 4));
     for spp in [4, 16, 11, 2, 3] {
         let job = job(&scene, settings(40, 30, spp));
@@ -185,7 +185,7 @@ fn a_recalled_picture_is_retraced_where_an_edit_shows() {
     let (mut one, woken) = renderer(2);
     let generation = restart(&mut one, first.clone());
     finish(&one, &woken, generation);
-    let kept = one.keep().expect("it is complete");
+    let kept = one.into_checkpoint().expect("it is complete");
     let mut other = Scene::clone(&scene);
     other.materials[1] = Material::from(grey(0.7));
     let other = Arc::new(other);
@@ -211,7 +211,11 @@ fn a_renderer_that_waits_for_a_picture_ends_at_once() {
     let (mut renderer, _woken) = renderer(1);
     let restarted = renderer.restart_from(job, recalled);
     restarted.expect("the worker runs");
-    assert!(renderer.keep().is_none_or(|kept| kept.samples() == 0));
+    assert!(
+        renderer
+            .into_checkpoint()
+            .is_none_or(|kept| kept.samples() == 0)
+    );
 }
 
 #[test]
@@ -220,9 +224,9 @@ fn pictures_that_cannot_be_continued_are_not_kept() {
         frames: Frames::Last,
         ..job(&still(), settings(40, 30, 4))
     };
-    assert!(begun(&last).keep().is_none());
+    assert!(begun(&last).into_checkpoint().is_none());
     let (renderer, _woken) = renderer(1);
-    assert!(renderer.keep().is_none(), "nothing was traced");
+    assert!(renderer.into_checkpoint().is_none(), "nothing was traced");
 }
 
 /// Jobs whose blocks are continued by a renderer and by a tracer of blocks: besides several shapes, by
@@ -252,7 +256,7 @@ fn exchanged() -> Vec<Job> {
 }
 
 /// What is left of a picture after the frames that come first.
-fn left_after(job: &Job, frames: u32) -> Kept {
+fn left_after(job: &Job, frames: u32) -> Checkpoint {
     let (mut renderer, woken) = renderer(2);
     restart(&mut renderer, job.clone());
     for _ in 0..frames {
@@ -264,7 +268,7 @@ fn left_after(job: &Job, frames: u32) -> Kept {
             break;
         }
     }
-    renderer.keep().expect("it is begun")
+    renderer.into_checkpoint().expect("it is begun")
 }
 
 #[test]
@@ -292,7 +296,7 @@ fn a_tracer_of_blocks_continues_what_a_renderer_left() {
         let blocks = tracer.blocks();
         let mut easel = Easel::new(job.clone());
         easel.trace(300);
-        let by_easel = easel.film.keep(Duration::ZERO);
+        let by_easel = easel.film.into_checkpoint(Duration::ZERO);
         let mut left = vec![
             left_after(&job, 1),
             left_after(&job, 3),
@@ -369,7 +373,7 @@ fn the_cost_of_pixels_is_traced_where_it_is_not_known() {
 fn small(job: &Job) -> Vec<Block> {
     let mut easel = Easel::new(job.clone());
     easel.trace(u64::MAX);
-    blocks_of(&easel.film.keep(Duration::ZERO))
+    blocks_of(&easel.film.into_checkpoint(Duration::ZERO))
 }
 
 /// A way to spoil a block.
@@ -396,7 +400,7 @@ fn blocks_of_no_such_picture_are_refused() {
         spoil(&mut blocks[0]);
         assert_eq!(read(&blocks, &live).expect("it is one").samples(), 0);
     }
-    // More is stored than a job that shows no causes needs, but not less.
+    // More is stored than a job that shows no histories needs, but not less.
     let last = Job {
         frames: Frames::Last,
         ..live.clone()
@@ -440,7 +444,7 @@ fn no_blocks_make_tracing_fail() {
             |block| block.squared_errors.fill(f32::NAN),
             |block| block.variances.fill(f32::NEG_INFINITY),
             |block| {
-                block.causes.fill(Cause {
+                block.histories.fill(PixelHistory {
                     touched: 0,
                     rays: u32::MAX,
                 });

@@ -81,7 +81,7 @@ fn lights_fade_by_the_square_where_their_own_terms_do_not() {
         ("distant", floor(distant), 8.0, 8.0),
     ] {
         for (falloff, expected) in [(FalloffRule::None, plain), (FalloffRule::Square, square)] {
-            let rules = Rules { falloff, ..PATHS };
+            let rules = WorldSettings { falloff, ..PATHS };
             let scene = Arc::new(scene.clone());
             let world = World::build(scene, &Images::default(), rules, None, &|| false);
             let world = world.expect("nothing cancels the building");

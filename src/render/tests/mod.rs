@@ -29,11 +29,11 @@ mod photon_pictures;
 mod photons;
 mod progress;
 mod regions;
+mod setting_search;
 mod shading;
 mod solids;
 mod spread;
 mod textures;
-mod trials;
 mod visibility;
 
 use std::sync::{Arc, mpsc};
@@ -42,7 +42,7 @@ use glam::{DVec2, DVec3};
 
 use super::integrators::{Sample, SampleResult, Tracer};
 use super::sampling::Sampler;
-use super::world::{Dependencies, Rules, World};
+use super::world::{Dependencies, World, WorldSettings};
 use super::{Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
 use geometry::{Affine, Cone, Cuboid, Ellipsoid, Node, Ray, Shape, Solid, Sphere};
 use language::coefficients::Coefficients;
@@ -213,7 +213,7 @@ fn white_light(position: [f64; 3]) -> Light {
 }
 
 /// Those of path tracing, without any that a scene would have to ask for.
-const PATHS: Rules = Rules {
+const PATHS: WorldSettings = WorldSettings {
     integrator: Integrator::Path,
     falloff: FalloffRule::None,
     gloss: GlossRule::None,

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::highlights::GROUND;
 use super::*;
 use crate::material::{Lobes, Point};
-use crate::sampling::Use;
+use crate::sampling::Purpose;
 use scene::Emitter;
 
 /// The means of a ray's radiance over `samples`, one for each of `seeds` seeds.
@@ -349,7 +349,7 @@ fn point_seen_from(view: DVec3) -> Point {
     let nearest = world
         .nearest(&seen, f64::INFINITY)
         .expect("the plane is met");
-    world.arrive(&seen, nearest, &mut None).0
+    world.shading_point(&seen, nearest, &mut None).0
 }
 
 /// The lobes of a material at a point.
@@ -360,7 +360,7 @@ fn lobes_of(material: &str, point: &Point) -> Lobes {
     let nearest = world
         .nearest(&down, f64::INFINITY)
         .expect("the plane is met");
-    Lobes::of(point, world.arrive(&down, nearest, &mut None).1).0
+    Lobes::of(point, world.shading_point(&down, nearest, &mut None).1).0
 }
 
 /// Points with normal +z, except one whose interpolated normal leans away from the eye.
@@ -379,7 +379,7 @@ fn sampled(lobes: &Lobes, point: &Point, count: u32) -> (f64, f64) {
     let (mut sent, mut above) = (0.0, 0.0);
     for index in 0..count {
         let sampler = Sampler::new(1, 2, index, 3);
-        let [u, v, lobe, _] = sampler.four(0, Use::Bounce);
+        let [u, v, lobe, _] = sampler.four(0, Purpose::Bounce);
         let direction = lobes.choose(point, lobe, [u, v]);
         let scattered = lobes.scatter(point, direction);
         if 0.0 < scattered.density {

@@ -15,9 +15,9 @@ pub(super) struct Traced {
 }
 
 /// Those of path tracing with photons.
-pub(super) const PHOTONS: Rules = PATHS;
+pub(super) const PHOTONS: WorldSettings = PATHS;
 
-pub(super) fn world_by(scene: &Scene, rules: Rules) -> World {
+pub(super) fn world_by(scene: &Scene, rules: WorldSettings) -> World {
     World::build(
         Arc::new(scene.clone()),
         &Images::default(),
@@ -126,7 +126,7 @@ fn a_plane_mirror_lights_as_the_mirrored_light() {
     };
     let ground = around([1.0, 0.5]);
     let by = |x: f64| mean(&ground, |at| cosine_over_square(at, [x, 0.0, 3.0]));
-    let square = Rules {
+    let square = WorldSettings {
         falloff: FalloffRule::Square,
         ..PHOTONS
     };
@@ -232,7 +232,7 @@ fn a_glass_ball_focuses_as_ray_optics_says() {
 }
 
 /// The mean light of the ground by photons and by paths, over seeds, within three standard errors.
-fn assert_alike(scene: &Scene, rules: Rules, depth: u32, case: &str) {
+fn assert_alike(scene: &Scene, rules: WorldSettings, depth: u32, case: &str) {
     assert_alike_along(&onto_ground(6.0, 256), scene, rules, depth, case);
 }
 
@@ -240,7 +240,7 @@ fn assert_alike(scene: &Scene, rules: Rules, depth: u32, case: &str) {
 pub(super) fn assert_alike_along(
     rays: &[Ray],
     scene: &Scene,
-    rules: Rules,
+    rules: WorldSettings,
     depth: u32,
     case: &str,
 ) {
@@ -314,7 +314,7 @@ fn photons_bring_what_paths_find_of_lights_with_a_size() {
 /// With `gloss exponent` photons are spread about the same half vectors as paths.
 #[test]
 fn photons_spread_by_exponents_as_paths_do() {
-    let rules = Rules {
+    let rules = WorldSettings {
         gloss: GlossRule::Exponent,
         ..PHOTONS
     };
@@ -375,7 +375,7 @@ fn lights_of_rice_and_bu_reach_the_ground_by_photons() {
     };
     let ground = cuboid([-20.0, -20.0, -1.0], [40.0, 40.0, 1.0]);
     let ball = (sphere([0.0, 0.0, 2.0], 1.0), clear);
-    let square = Rules {
+    let square = WorldSettings {
         falloff: FalloffRule::Square,
         ..PHOTONS
     };

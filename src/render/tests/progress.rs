@@ -10,7 +10,7 @@ use crate::picture::{Tone, tone};
 use crate::world::Projection;
 
 fn tone() -> Tone {
-    Tone::Colour(tone::Light::new(0.0, Transfer::Linear))
+    Tone::Colour(tone::DisplayTransform::new(0.0, Transfer::Linear))
 }
 
 /// Glass, a mirror and a matte ball on a floor.

@@ -9,7 +9,12 @@ fn mean(scene: &str, ray: Ray, samples: u32) -> f64 {
 }
 
 /// The same by an integrator, with rules.
-fn mean_by((integrator, rules): (Integrator, Rules), scene: &str, ray: Ray, samples: u32) -> f64 {
+fn mean_by(
+    (integrator, rules): (Integrator, WorldSettings),
+    scene: &str,
+    ray: Ray,
+    samples: u32,
+) -> f64 {
     let scene = Arc::new(xml(scene));
     let world = World::build(scene, &Images::default(), rules, None, &|| false);
     let world = world.expect("nothing cancels the building");
@@ -83,7 +88,7 @@ fn exponents_spread_mirrors_and_glass_about_their_half_vectors() {
         });
         passes.sum::<f64>() / f64::from(STEPS)
     };
-    let spread = Rules {
+    let spread = WorldSettings {
         gloss: GlossRule::Exponent,
         ..PATHS
     };
@@ -169,7 +174,7 @@ fn a_lens_blurs_what_is_out_of_focus() {
         let count = 4096;
         let each = (0..count).map(|index| {
             let sampler = Sampler::new(0, 0, index, 0);
-            let lens = || sampler.pair(Sampler::ROOT, crate::sampling::Use::Lens);
+            let lens = || sampler.pair(Sampler::ROOT, crate::sampling::Purpose::Lens);
             let (ray, reach) = projection.ray(0.5, 0.5, lens);
             tracer.radiance(&centred(ray, reach)).radiance.x
         });

@@ -3,13 +3,13 @@
 //! It has a tree over the objects, and one over the triangles of each mesh, shared by its instances
 //! and kept as long as the mesh is in the scene.
 
-mod arrival;
 mod dependencies;
 mod intersect;
 mod nearby;
 mod packets;
 mod picking;
 mod projection;
+mod shading_point;
 mod spheres;
 mod structures;
 mod surfaces;
@@ -33,7 +33,7 @@ use rayon::prelude::*;
 
 use self::spheres::Spheres;
 use super::job::Settings;
-use super::light::{Emitters, Known, ManyLights, Sky, SphereLights, faded};
+use super::light::{Emitters, ManyLights, PreviousEmitters, Sky, SphereLights, faded};
 use super::material::{Textures, environment_place};
 use super::simd_level::level;
 use crate::light::light_sphere;
@@ -84,7 +84,7 @@ fn sampled(
 ) -> Option<Sampled> {
     let sky = previous.map(|world| (&world.sky, &world.textures));
     let sky = Sky::build(scene, textures, sky, &cancelled)?;
-    let known = known.map(|(world, changed)| Known {
+    let known = known.map(|(world, changed)| PreviousEmitters {
         emitters: &world.emitters,
         textures: &world.textures,
         changed,
@@ -97,13 +97,13 @@ fn sampled(
 
 /// The settings that the preparation of a scene depends on.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Rules {
+pub(crate) struct WorldSettings {
     pub(crate) integrator: Integrator,
     pub(crate) falloff: FalloffRule,
     pub(crate) gloss: GlossRule,
 }
 
-impl Rules {
+impl WorldSettings {
     /// Those of these settings.
     pub(crate) fn of(settings: &Settings) -> Self {
         Self {
@@ -154,17 +154,17 @@ impl World {
     pub(crate) fn build(
         scene: Arc<Scene>,
         images: &Images,
-        rules: Rules,
+        settings: WorldSettings,
         previous: Option<&Self>,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<Self> {
         let textures = Textures::new(&scene.textures, images);
         let ambient = scene.ambient_light();
-        let Rules {
+        let WorldSettings {
             integrator,
             falloff,
             gloss,
-        } = rules;
+        } = settings;
         let faded = faded(&scene.lights, falloff);
         let lights = faded.as_deref().unwrap_or(&scene.lights);
         let sphere_lights = SphereLights::new(lights, cancelled)?;

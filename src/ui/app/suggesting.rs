@@ -8,7 +8,7 @@ use super::{Shared, display, text};
 use crate::msg::{Effect, Target};
 use explain::fault;
 use language::Prospect;
-use render::{Advice, Fault, Frame, Frames, Histogram, Job, Overexposure, Settings, Trials};
+use render::{Advice, Fault, Frame, Frames, Histogram, Job, Overexposure, SettingSearch, Settings};
 use scene::RenderKey;
 
 /// Says what is wrong with a preview of light as a whole, and what helps, once trials have
@@ -40,7 +40,7 @@ pub(crate) fn judge_picture(shared: &mut Shared, target: Target, frame: &Frame) 
 }
 
 /// The trials for a preview, if something may be wrong with it as displayed.
-fn suspected(shared: &Shared, frame: &Frame) -> Option<Trials> {
+fn suspected(shared: &Shared, frame: &Frame) -> Option<SettingSearch> {
     let settings = frame.settings().filter(|settings| settings.aov.is_none())?;
     let scene = shared.scene.as_ref()?;
     let stops = shared.pictures.display.stops();
@@ -51,13 +51,13 @@ fn suspected(shared: &Shared, frame: &Frame) -> Option<Trials> {
         ..*settings
     };
     let of_text = fault(&shared.suggestions.prospects);
-    let trials = Trials::of_picture(frame, scene, &settings, of_text)?;
+    let trials = SettingSearch::of_picture(frame, scene, &settings, of_text)?;
     let is_known = trials.fault().is_some() || of_text.is_some();
     (is_known || !is_darkened).then_some(trials)
 }
 
 /// Traces the next trial picture.
-fn try_out(shared: &mut Shared, next: Trials) -> Option<Effect> {
+fn try_out(shared: &mut Shared, next: SettingSearch) -> Option<Effect> {
     let settings = next.settings();
     let job = display::shown_job(shared, settings.size, settings.spp)?;
     shared.suggestions.trials = Some(RunningTrials {

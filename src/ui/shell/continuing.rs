@@ -12,7 +12,7 @@ use crate::msg::{Origin, Recalled};
 use crate::queue::spawn;
 use assets::FileDigests;
 use part::{Contents, Shard, Traces};
-use render::{Job, Kept, Provenance, Renderer};
+use render::{Checkpoint, Job, Provenance, Renderer};
 use scene::Scene;
 
 /// The least time spent on a trace that is kept.
@@ -76,7 +76,7 @@ impl Traced {
         origin: Origin,
         (traces, beside): (Option<Traces>, PathBuf),
         report: impl Fn(Recalled) + Send + 'static,
-    ) -> io::Result<(Self, Receiver<Kept>)> {
+    ) -> io::Result<(Self, Receiver<Checkpoint>)> {
         let traced = Self::of(job);
         let (send, recalled) = mpsc::channel();
         let (tell, digests) = mpsc::channel();
@@ -108,7 +108,7 @@ impl Traced {
                 report(Recalled::More(goal.spp.min(spp.next_power_of_two())));
                 return;
             }
-            match Kept::of(found.written(), goal.time, &job) {
+            match Checkpoint::of(found.written(), goal.time, &job) {
                 Ok(kept) => {
                     let spp = kept.spp();
                     if send.send(kept).is_ok() {
@@ -137,7 +137,9 @@ impl Traced {
     ) -> Keeping {
         let (tell, end) = mpsc::channel();
         let work = move || {
-            let kept = renderer.keep().filter(|kept| LEAST <= kept.time());
+            let kept = renderer
+                .into_checkpoint()
+                .filter(|kept| LEAST <= kept.time());
             let end = kept.map_or(TraceEnd::Nothing, |kept| {
                 let traces = Traces::of_user().map_err(|error| error.to_string());
                 let stored = traces.and_then(|traces| self.store(&traces, &kept, now, deadline));
@@ -154,7 +156,7 @@ impl Traced {
     fn store(
         self,
         traces: &Traces,
-        kept: &Kept,
+        kept: &Checkpoint,
         now: Option<(Arc<Scene>, Origin)>,
         deadline: Instant,
     ) -> Result<TraceEnd, String> {

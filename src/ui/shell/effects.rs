@@ -36,7 +36,7 @@ use crate::service::{self, Answering};
 use assets::Wanted;
 use others::{reaches_others, without_others};
 use part::Traces;
-use render::{Frame, Job, Kept, Refusal, Renderer, Threads};
+use render::{Checkpoint, Frame, Job, Refusal, Renderer, Threads};
 use scene::Scene;
 
 /// Time for which memory freed by pictures is kept for the next ones.
@@ -330,7 +330,7 @@ impl Runtime {
         self.trace(Target::Trace, job, recalled)
     }
 
-    fn trace(&mut self, target: Target, job: Job, recalled: Option<Receiver<Kept>>) -> Msg {
+    fn trace(&mut self, target: Target, job: Job, recalled: Option<Receiver<Checkpoint>>) -> Msg {
         let threads = match (target, self.threads) {
             (Target::Preview, None) => Threads::Preview,
             (Target::Preview, Some(count)) => Threads::Exactly(count),

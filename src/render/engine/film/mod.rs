@@ -8,15 +8,16 @@ use std::time::Duration;
 
 use rayon::prelude::*;
 
-use super::adaptive::{SQUARES, Selection, Squares, go_on, square};
+use super::adaptive::{SQUARES, Selection, Squares, square, unconverged};
 use super::blocks::{BLOCK, Blocks};
-use super::checkpoint::{Effort, Kept};
+use super::checkpoint::{Checkpoint, Effort};
 use super::noise::Doubling;
 use super::pass_schedule::Step;
-use super::tile::{AREA, Remembers, Tile, TileShape, Work};
+use super::pixel_sampler::PixelSampler;
+use super::tile::{AREA, Remembers, Tile, TileShape};
 use crate::integrators::{Counts, FrameContext, LightComponent, MAPS, PhotonRules, Tracer};
 use crate::job::{Aov, Frames, Settings};
-use crate::picture::{Excess, Light, Overexposure, Tone, UNKNOWN, denoise, tone};
+use crate::picture::{DisplayTransform, Excess, Overexposure, Tone, UNKNOWN, denoise, tone};
 use crate::world::Dependencies;
 pub(crate) use raster::Raster;
 use scene::{Integrator, LEAST_ADAPTIVE_SPP, Rgb, Size};
@@ -31,7 +32,7 @@ pub(crate) struct Film {
     size: Size,
     spp: u32,
     aov: Option<Aov>,
-    light: Light,
+    display: DisplayTransform,
     /// The noise below which pixels take no more samples.
     adaptive: Option<f64>,
     shape: TileShape,
@@ -66,7 +67,7 @@ impl Film {
         let size = settings.traced().size();
         let bytes = |count: usize, each: usize| (count as u64).saturating_mul(each as u64);
         let remembers = Remembers::of(settings, frames, denoise);
-        let denoising = if denoise && remembers == Remembers::Causes {
+        let denoising = if denoise && remembers == Remembers::Histories {
             denoise::bytes(size)
         } else {
             0
@@ -77,12 +78,12 @@ impl Film {
             Frames::LastWithValues => size_of::<[f32; 3]>(),
         };
         let is_in_parts = PhotonRules::of(settings).is_some() && 2 * MAPS < settings.spp;
-        let halfway = if is_in_parts {
-            Tile::halfway_bytes()
+        let partial_pass = if is_in_parts {
+            Tile::partial_pass_bytes()
         } else {
             0
         };
-        let tile = Tile::bytes(remembers) + halfway;
+        let tile = Tile::bytes(remembers) + partial_pass;
         let tiles = bytes(TileShape::of(size).count(size), tile);
         let picture = bytes(size.pixels(), size_of::<[u8; 3]>() + values);
         tiles.saturating_add(picture).saturating_add(denoising)
@@ -106,7 +107,7 @@ impl Film {
                 size,
                 spp,
                 aov,
-                light: Light::of(settings),
+                display: DisplayTransform::of(settings),
                 adaptive: settings.adaptive(),
                 shape,
                 remembers,
@@ -143,10 +144,10 @@ impl Film {
     /// Takes over a picture of the same size, except what depends on `changed`, and pixels that
     /// cannot be continued to this number of samples. Returns the effort that counts as its own:
     /// what was spent on it, unless it changed. Runs on the current thread pool.
-    pub(crate) fn take_over(&mut self, kept: Kept, changed: Dependencies) -> Effort {
-        self.tiles = kept.tiles;
-        self.remembers = kept.remembers;
-        let spp = [kept.spp, self.spp];
+    pub(crate) fn take_over(&mut self, checkpoint: Checkpoint, changed: Dependencies) -> Effort {
+        self.tiles = checkpoint.tiles;
+        self.remembers = checkpoint.remembers;
+        let spp = [checkpoint.spp, self.spp];
         let levels: Vec<_> = self.tiles.iter().map(Tile::level).collect();
         let tiles = self.tiles.par_iter_mut();
         let stale = tiles.map(|tile| tile.forget(changed, spp)).collect();
@@ -162,7 +163,11 @@ impl Film {
         }
         let counts = self.tiles.iter().map(|tile| tile.counts);
         Effort {
-            time: if is_same { kept.time } else { Duration::ZERO },
+            time: if is_same {
+                checkpoint.time
+            } else {
+                Duration::ZERO
+            },
             counts: counts.fold(Counts::default(), Counts::and),
         }
     }
@@ -192,15 +197,15 @@ impl Film {
     }
 
     /// Whether a picture of the same size stores all that this one shows.
-    pub(crate) fn can_take_over(&self, kept: &Kept) -> bool {
-        let tells_rays = self.aov != Some(Aov::Cost) || kept.tells_rays();
-        kept.remembers.suffices(self.remembers) && tells_rays
+    pub(crate) fn can_take_over(&self, checkpoint: &Checkpoint) -> bool {
+        let tells_rays = self.aov != Some(Aov::Cost) || checkpoint.tells_rays();
+        checkpoint.remembers.suffices(self.remembers) && tells_rays
     }
 
     /// The picture as far as it is traced, and the time that it took.
-    pub(crate) fn keep(mut self, time: Duration) -> Kept {
+    pub(crate) fn into_checkpoint(mut self, time: Duration) -> Checkpoint {
         self.tiles.par_iter_mut().for_each(Tile::revert);
-        Kept {
+        Checkpoint {
             size: self.size,
             spp: self.spp,
             is_adaptive: self.adaptive.is_some(),
@@ -265,7 +270,7 @@ impl Film {
             let (tile, at) = self.pixel(pixel);
             (square(pixel), tile.squared_error(at))
         });
-        let squares = go_on(limit, taking, errors);
+        let squares = unconverged(limit, taking, errors);
         let selected = levels.iter().filter(|&&(square, _)| squares.has(square));
         (squares, selected.count())
     }
@@ -309,15 +314,15 @@ impl Film {
                     let tracer = tracer
                         .gathering(LightComponent::of(shot.settings.aov))
                         .with_photons(shot.photons);
-                    Work::new(match remembers {
+                    PixelSampler::new(match remembers {
                         Remembers::Pixels => tracer,
-                        Remembers::Causes => tracer.noting(),
+                        Remembers::Histories => tracer.noting(),
                     })
                 },
-                |work, tile| {
-                    let before = work.tracer.counts();
-                    tile.advance(size, (step, part.clone(), selection), shot, work);
-                    let traced = work.tracer.counts().since(before);
+                |sampler, tile| {
+                    let before = sampler.tracer.counts();
+                    tile.advance(size, (step, part.clone(), selection), shot, sampler);
+                    let traced = sampler.tracer.counts().since(before);
                     tile.add_rays(traced);
                     traced
                 },
@@ -374,10 +379,10 @@ impl Film {
     /// The variances of the linear values of pixels, or [`UNKNOWN`]; `None` where the noise is not
     /// recorded.
     pub(crate) fn variances(&self, shot: &FrameContext<'_>) -> Option<Vec<f32>> {
-        if self.remembers != Remembers::Causes {
+        if self.remembers != Remembers::Histories {
             return None;
         }
-        let scale = self.light.exposed(Rgb::ONE).x;
+        let scale = self.display.exposed(Rgb::ONE).x;
         let scale = (scale * scale) as f32;
         let mut variances = Vec::new();
         self.develop_rows(0..self.rows(), &mut variances, |tile, at| {
@@ -396,7 +401,7 @@ impl Film {
 
     fn develop_in(&self, mut raster: Raster, cancelled: impl Fn() -> bool) -> Option<Raster> {
         raster.range = self.range();
-        let tone = Tone::of(self.aov, self.light, raster.range);
+        let tone = Tone::of(self.aov, self.display, raster.range);
         let value = |tile: &Tile, at| tile.value(at, self.spp, self.aov);
         let tells_objects = 0 < raster.objects.capacity();
         let tells_values = 0 < raster.values.capacity();
@@ -461,7 +466,7 @@ impl Film {
     fn overexposure(&self) -> Overexposure {
         let excess = |tile: &Tile| {
             let values = tile.values(self.spp, self.aov);
-            Excess::of(values.map(|value| self.light.exposed(value)))
+            Excess::of(values.map(|value| self.display.exposed(value)))
         };
         Excess::sum(self.tiles.par_iter().map(excess)).over(self.size.pixels())
     }

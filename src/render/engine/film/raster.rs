@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::engine::tile::Remembers;
 use crate::job::Frames;
-use crate::picture::{Light, Overexposure, Tone};
+use crate::picture::{DisplayTransform, Overexposure, Tone};
 use scene::{Rgb, Transfer};
 
 /// Pixels in rows, with the index of the object under each.
@@ -37,7 +37,7 @@ impl Raster {
             Frames::Live => {
                 room.objects.try_reserve_exact(count)?;
                 room.values.try_reserve_exact(count)?;
-                if remembers == Remembers::Causes {
+                if remembers == Remembers::Histories {
                     room.errors.try_reserve_exact(count)?;
                 }
             }
@@ -49,7 +49,7 @@ impl Raster {
 
     /// Replaces values by denoised ones, and the pixels in which they differ.
     pub(crate) fn replace(&mut self, denoised: Vec<[f32; 3]>, transfer: Transfer) {
-        let tone = Tone::Colour(Light::new(0.0, transfer));
+        let tone = Tone::Colour(DisplayTransform::new(0.0, transfer));
         let pixels = self.pixels.par_iter_mut().zip(&self.values).zip(&denoised);
         pixels.for_each(|((pixel, before), after)| {
             if before != after {

@@ -9,14 +9,15 @@ use std::ops::Range;
 use super::adaptive::Selection;
 use super::noise::Doubling;
 use super::pass_schedule::{COARSEST, Step, samples_at};
-use crate::integrators::{Counts, FrameContext, Sample, SampleResult, Tracer, first_hit};
+use super::pixel_sampler::PixelSampler;
+use crate::integrators::{Counts, FrameContext};
 use crate::job::{Aov, Frames, NO_OBJECT, Settings};
 use crate::picture::UNKNOWN;
 use crate::world::Dependencies;
-use partial_pass::Halfway;
+use partial_pass::PartialPass;
 use scene::{Rgb, Size};
 pub(crate) use shape::TileShape;
-pub use stored::Cause;
+pub use stored::PixelHistory;
 pub(crate) use stored::Stored;
 
 /// Pixels per tile.
@@ -31,70 +32,6 @@ const NO_GRID: u32 = 2 * COARSEST;
 
 /// The level of pixels beyond the picture's edge, which no step applies to.
 const BEYOND: u8 = u8::MAX;
-
-/// A thread's tracer, with scratch space reused between tiles.
-pub(crate) struct Work<'w, C> {
-    pub(crate) tracer: Tracer<'w, C>,
-    /// Pixels to sample.
-    pub(crate) pixels: Vec<[u32; 2]>,
-    /// A sample of each pixel.
-    samples: Vec<Sample>,
-    /// Results of the samples.
-    pub(crate) seen: Vec<SampleResult>,
-}
-
-impl<'w, C: Fn() -> bool> Work<'w, C> {
-    pub(crate) fn new(tracer: Tracer<'w, C>) -> Self {
-        Self {
-            tracer,
-            pixels: Vec::new(),
-            samples: Vec::new(),
-            seen: Vec::new(),
-        }
-    }
-
-    /// Takes the sample with this index of each of the pixels. Meaningless once the tracer is
-    /// cancelled.
-    pub(crate) fn sample(&mut self, index: u32, shot: &FrameContext<'_>) {
-        let Self {
-            tracer,
-            pixels,
-            samples,
-            seen,
-        } = self;
-        shot.samples(pixels, index, samples);
-        match shot.settings.surface() {
-            None => {
-                tracer.trace(samples, seen);
-                if 0.0 < shot.settings.clamp {
-                    for seen in seen {
-                        seen.radiance = clamped(seen.radiance, shot.settings.clamp);
-                    }
-                }
-            }
-            Some(aov) => {
-                tracer.count(samples.len());
-                seen.clear();
-                seen.extend(samples.iter().map(|&Sample { ray, reach, .. }| {
-                    let skipped = (ray.origin - shot.eye).dot(ray.direction);
-                    first_hit(shot.world, &ray, reach, skipped, aov)
-                }));
-            }
-        }
-    }
-}
-
-/// Radiance scaled down so that its largest channel is at most this.
-fn clamped(radiance: Rgb, most: f64) -> Rgb {
-    let largest = radiance.max_element();
-    if largest <= most {
-        radiance
-    } else if largest.is_finite() {
-        radiance * (most / largest)
-    } else {
-        radiance.min(Rgb::splat(most))
-    }
-}
 
 /// A part of a picture.
 #[derive(Debug)]
@@ -119,7 +56,7 @@ pub(crate) struct Tile {
     /// Data for tracing a subset of the pixels again.
     memory: Option<Box<Memory>>,
     /// What it was before a step of which parts are taken.
-    halfway: Option<Box<Halfway>>,
+    partial_pass: Option<Box<PartialPass>>,
 }
 
 /// Data of each pixel that is not displayed.
@@ -141,7 +78,7 @@ pub(crate) enum Remembers {
     /// Pixels only.
     Pixels,
     /// Pixels and their dependencies.
-    Causes,
+    Histories,
 }
 
 impl Remembers {
@@ -152,7 +89,7 @@ impl Remembers {
         let guides = denoise && frames != Frames::Live;
         let is_small = settings.traced().size().pixels() <= MOST_REMEMBERED;
         if shown || guides || decides || frames == Frames::Live && is_small {
-            Self::Causes
+            Self::Histories
         } else {
             Self::Pixels
         }
@@ -160,7 +97,7 @@ impl Remembers {
 
     /// Whether all that `other` needs is stored.
     pub(crate) fn suffices(self, other: Self) -> bool {
-        self == Self::Causes || other == Self::Pixels
+        self == Self::Histories || other == Self::Pixels
     }
 }
 
@@ -169,7 +106,7 @@ impl Tile {
     pub(crate) fn bytes(remembers: Remembers) -> usize {
         let memory = match remembers {
             Remembers::Pixels => 0,
-            Remembers::Causes => size_of::<Memory>(),
+            Remembers::Histories => size_of::<Memory>(),
         };
         size_of::<Self>() + memory
     }
@@ -194,8 +131,8 @@ impl Tile {
             level: 0,
             squared_errors: 0.0,
             counts: Counts::default(),
-            memory: (remembers == Remembers::Causes).then(memory),
-            halfway: None,
+            memory: (remembers == Remembers::Histories).then(memory),
+            partial_pass: None,
         };
         let [left, top] = tile.corner;
         let across = (size.width - left).min(shape.width) as usize;
@@ -221,53 +158,56 @@ impl Tile {
         size: Size,
         (step, part, selection): (&Step, Range<u32>, Option<&Selection>),
         shot: &FrameContext<'_>,
-        work: &mut Work<'_, C>,
+        sampler: &mut PixelSampler<'_, C>,
     ) {
-        if work.tracer.is_cancelled() {
+        if sampler.tracer.is_cancelled() {
             return;
         }
-        let counts = work.tracer.counts();
+        let counts = sampler.tracer.counts();
         let level = step.level();
         let is_last = part.end == step.indices().end;
-        work.pixels.clear();
-        if let Some(halfway) = &self.halfway {
-            work.pixels.extend_from_slice(&halfway.pixels);
+        sampler.pixels.clear();
+        if let Some(partial_pass) = &self.partial_pass {
+            sampler.pixels.extend_from_slice(&partial_pass.pixels);
         } else {
-            let halfway = (!is_last).then(|| self.halfway());
+            let partial_pass = (!is_last).then(|| self.partial_pass());
             self.each_pixel(size, step.spacing(), |tile, pixel| {
                 let at = tile.index(pixel);
                 let is_selected = selection.is_none_or(|selection| selection.has(pixel));
                 if tile.levels[at] < level && is_selected {
                     tile.levels[at] = 0;
-                    work.pixels.push(pixel);
+                    sampler.pixels.push(pixel);
                 }
             });
-            self.halfway = halfway;
-            if let Some(halfway) = &mut self.halfway {
-                halfway.pixels.clone_from(&work.pixels);
+            self.partial_pass = partial_pass;
+            if let Some(partial_pass) = &mut self.partial_pass {
+                partial_pass.pixels.clone_from(&sampler.pixels);
             }
         }
         let doubling = Doubling::of(step, &shot.settings).filter(|_| is_last);
         let doubling = doubling.map(|doubling| {
-            let halfway = self.halfway.as_ref();
-            (doubling, halfway.map_or(self.sums, |halfway| halfway.sums))
+            let partial_pass = self.partial_pass.as_ref();
+            (
+                doubling,
+                partial_pass.map_or(self.sums, |partial_pass| partial_pass.sums),
+            )
         });
         for index in part {
-            self.sample(index, shot, work);
-            if work.tracer.is_cancelled() {
+            self.sample(index, shot, sampler);
+            if sampler.tracer.is_cancelled() {
                 return;
             }
         }
-        self.counts.over_budget += work.tracer.counts().since(counts).over_budget;
+        self.counts.over_budget += sampler.tracer.counts().since(counts).over_budget;
         if !is_last {
             return;
         }
-        self.halfway = None;
-        for &pixel in &work.pixels {
+        self.partial_pass = None;
+        for &pixel in &sampler.pixels {
             self.levels[self.index(pixel)] = level;
         }
         if let Some((doubling, before)) = doubling {
-            self.estimate(doubling, &before, &work.pixels);
+            self.estimate(doubling, &before, &sampler.pixels);
         }
         match *step {
             Step::Grid(spacing) if 1 < spacing => self.grid = spacing,
@@ -280,10 +220,10 @@ impl Tile {
         &mut self,
         index: u32,
         shot: &FrameContext<'_>,
-        work: &mut Work<'_, C>,
+        sampler: &mut PixelSampler<'_, C>,
     ) {
-        work.sample(index, shot);
-        for (&pixel, seen) in work.pixels.iter().zip(&work.seen) {
+        sampler.sample(index, shot);
+        for (&pixel, seen) in sampler.pixels.iter().zip(&sampler.seen) {
             let at = self.index(pixel);
             self.sums[at] += seen.radiance;
             if index == 0 {

@@ -5,7 +5,7 @@ use scene::Rgb;
 
 /// The pixels of a tile as they were before the step, which are shown, and those that take it.
 #[derive(Debug)]
-pub(super) struct Halfway {
+pub(super) struct PartialPass {
     pub(super) pixels: Vec<[u32; 2]>,
     pub(super) sums: [Rgb; AREA as usize],
     levels: [u8; AREA as usize],
@@ -16,14 +16,14 @@ pub(super) struct Halfway {
 
 impl Tile {
     /// The most bytes that a tile has more between the parts of a step.
-    pub(crate) fn halfway_bytes() -> usize {
-        size_of::<Halfway>() + AREA as usize * (size_of::<[u32; 2]>() + size_of::<u32>())
+    pub(crate) fn partial_pass_bytes() -> usize {
+        size_of::<PartialPass>() + AREA as usize * (size_of::<[u32; 2]>() + size_of::<u32>())
     }
 
     /// Stores the pixels as they are.
-    pub(super) fn halfway(&self) -> Box<Halfway> {
+    pub(super) fn partial_pass(&self) -> Box<PartialPass> {
         let memory = self.memory.as_ref();
-        Box::new(Halfway {
+        Box::new(PartialPass {
             pixels: Vec::new(),
             sums: self.sums,
             levels: self.levels,
@@ -34,14 +34,14 @@ impl Tile {
 
     /// Undoes the parts taken of a step that is not finished.
     pub(crate) fn revert(&mut self) {
-        let Some(halfway) = self.halfway.take() else {
+        let Some(partial_pass) = self.partial_pass.take() else {
             return;
         };
-        self.sums = halfway.sums;
-        self.levels = halfway.levels;
-        self.counts.over_budget = halfway.over_budget;
+        self.sums = partial_pass.sums;
+        self.levels = partial_pass.levels;
+        self.counts.over_budget = partial_pass.over_budget;
         if let Some(memory) = &mut self.memory {
-            memory.rays.copy_from_slice(&halfway.rays);
+            memory.rays.copy_from_slice(&partial_pass.rays);
         }
     }
 
@@ -49,9 +49,13 @@ impl Tile {
     /// those before a step that is not finished.
     pub(super) fn shown(&self, at: usize) -> (Rgb, u8, u32) {
         let rays = |memory: &super::Memory| memory.rays[at];
-        if let Some(halfway) = &self.halfway {
-            let rays = halfway.rays.get(at).copied();
-            return (halfway.sums[at], halfway.levels[at], rays.unwrap_or(0));
+        if let Some(partial_pass) = &self.partial_pass {
+            let rays = partial_pass.rays.get(at).copied();
+            return (
+                partial_pass.sums[at],
+                partial_pass.levels[at],
+                rays.unwrap_or(0),
+            );
         }
         let rays = self.memory.as_deref().map_or(0, rays);
         (self.sums[at], self.levels[at], rays)

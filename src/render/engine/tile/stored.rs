@@ -9,14 +9,14 @@ use scene::Rgb;
 
 /// What is recorded of a pixel so that edits retrace only some.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Cause {
+pub struct PixelHistory {
     /// The objects and lights that its samples touched, as bits that each stand for several.
     pub touched: u64,
     /// The rays traced for its samples; [`u32::MAX`] if that is not known.
     pub rays: u32,
 }
 
-impl Cause {
+impl PixelHistory {
     /// That of a pixel of which nothing is recorded: it depends on everything.
     pub(crate) const UNKNOWN: Self = Self {
         touched: u64::MAX,
@@ -34,7 +34,7 @@ pub(crate) struct Stored {
     pub(crate) squared_error: f32,
     /// [`UNKNOWN`] where it is not recorded.
     pub(crate) variance: f32,
-    pub(crate) cause: Option<Cause>,
+    pub(crate) history: Option<PixelHistory>,
 }
 
 impl Stored {
@@ -45,7 +45,7 @@ impl Stored {
         level: 0,
         squared_error: 0.0,
         variance: UNKNOWN,
-        cause: None,
+        history: None,
     };
 }
 
@@ -63,7 +63,7 @@ impl Tile {
             level: self.levels[at],
             squared_error: memory.map_or_else(mean, |memory| memory.squared_errors[at]),
             variance: self.variance(at),
-            cause: memory.map(|memory| Cause {
+            history: memory.map(|memory| PixelHistory {
                 touched: memory.touched[at].bits(),
                 rays: memory.rays[at],
             }),
@@ -76,7 +76,7 @@ impl Tile {
         self.objects[at] = pixel.object;
         self.levels[at] = pixel.level;
         if let Some(memory) = &mut self.memory {
-            let Cause { touched, rays } = pixel.cause.unwrap_or(Cause::UNKNOWN);
+            let PixelHistory { touched, rays } = pixel.history.unwrap_or(PixelHistory::UNKNOWN);
             memory.squared_errors[at] = pixel.squared_error;
             memory.variances[at] = pixel.variance;
             memory.touched[at] = Dependencies::of_bits(touched);
@@ -105,7 +105,7 @@ impl Tile {
     /// Whether the rays traced for each of its pixels are known.
     pub(crate) fn tells_rays(&self) -> bool {
         let memory = self.memory.as_ref();
-        memory.is_some_and(|memory| !memory.rays.contains(&Cause::UNKNOWN.rays))
+        memory.is_some_and(|memory| !memory.rays.contains(&PixelHistory::UNKNOWN.rays))
     }
 
     /// Adds rays traced for it.

@@ -10,7 +10,7 @@ mod surface;
 
 use super::record::{RayEnd, TracedRay, children};
 use super::verdict::{Finding, Term, TermSource, Verdict};
-use crate::picture::Light;
+use crate::picture::DisplayTransform;
 use crate::world::{Projection, World};
 use scene::{Integrator, Rgb};
 
@@ -28,7 +28,7 @@ pub(super) struct Case<'r> {
     pub(super) world: &'r World,
     pub(super) projection: &'r Projection,
     pub(super) rays: &'r [TracedRay],
-    pub(super) light: Light,
+    pub(super) display: DisplayTransform,
     /// The exposure.
     pub(super) stops: f64,
     pub(super) integrator: Integrator,
@@ -96,7 +96,7 @@ impl<'r> Judge<'r> {
 
     /// The brightness of a part of the sample as displayed, where 1 is white.
     fn shown(&self, part: Rgb) -> f64 {
-        self.case.light.exposed(part).max_element()
+        self.case.display.exposed(part).max_element()
     }
 
     fn is_dark(&self, part: Rgb) -> bool {
@@ -129,7 +129,7 @@ impl<'r> Judge<'r> {
         });
         findings.extend(missing);
         let total = self.totals[0];
-        let exposed = self.case.light.exposed(total);
+        let exposed = self.case.display.exposed(total);
         if !total.is_finite() {
             findings.push(found(Verdict::NotFinite, 0));
         } else if 1.0 + 1e-9 < exposed.max_element() {

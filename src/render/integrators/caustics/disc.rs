@@ -243,7 +243,7 @@ impl<'w> Disc<'w> {
         let ray = self.down(aside, flat);
         let nearest = self.nearby.nearest(&ray, DEPTH * flat)?;
         let mut mapped = None;
-        let (point, material) = self.world.arrive(&ray, nearest, &mut mapped);
+        let (point, material) = self.world.shading_point(&ray, nearest, &mut mapped);
         let bsdf = Bsdf::at(&point, material, self.world.gloss);
         let normal = point.side.turn(point.surface.normal);
         let takes = bsdf.takes_photons(&point);

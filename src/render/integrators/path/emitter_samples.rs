@@ -8,7 +8,7 @@ use super::vertices::{Aimed, Vertices};
 use crate::integrators::probe::{Probe, RAY_BUDGET, SampleResult};
 use crate::integrators::vertex::Vertex;
 use crate::light::Choices;
-use crate::sampling::{Draws, Fours, Use};
+use crate::sampling::{Draws, Fours, Purpose};
 use crate::world::{NearestHits, Occlusion, World};
 use geometry::Ray;
 use geometry::lanes::{Row, Vector, WIDTH, dispatch, each_bit, lanes_of};
@@ -97,7 +97,7 @@ pub(crate) fn add_emitting_objects<C>(
     if world.emitters.is_empty() {
         return;
     }
-    let numbers = draws.four(Use::Emitter, world.level);
+    let numbers = draws.four(Purpose::Emitter, world.level);
     samples.aim_at_objects(world, (vertices, numbers), lanes);
     samples.count(probe, sums, seen);
     world.nearest_each(&samples.shadows.rays, &mut samples.nearest);
@@ -118,7 +118,7 @@ pub(crate) fn add_sky<C>(
     if world.sky.is_unsampled() {
         return;
     }
-    let numbers = draws.four(Use::Sky, world.level);
+    let numbers = draws.four(Purpose::Sky, world.level);
     samples.aim_at_sky(world, (vertices, numbers), lanes);
     samples.count(probe, sums, seen);
     let blocker = &mut samples.blocker;

@@ -5,7 +5,7 @@ use super::vertices::Vertices;
 use crate::integrators::direct::{Shadow, sent_back, shadowed};
 use crate::integrators::probe::{Probe, SampleResult};
 use crate::light::{SphereLight, Spheres, light_sphere, luminous_sphere};
-use crate::sampling::{Draws, Fours, Use};
+use crate::sampling::{Draws, Fours, Purpose};
 use crate::world::{Occlusion, World};
 use geometry::Packets;
 use geometry::lanes::{Row, WIDTH, dispatch, each_bit, lanes_of};
@@ -130,7 +130,7 @@ pub(crate) fn add_light<C>(
     let bounce = draws.node;
     // Only lights with a size need random numbers.
     let numbers = if light_sphere(light).is_some() {
-        draws.four(Use::Light(number as u32), world.level)
+        draws.four(Purpose::Light(number as u32), world.level)
     } else {
         &[]
     };
@@ -154,7 +154,7 @@ pub(crate) fn add_one_of_many<C>(
     if many.is_empty() || !sums.iter().any(|sum| sum.is_lit) {
         return;
     }
-    let numbers = draws.four(Use::ManyLights, world.level);
+    let numbers = draws.four(Purpose::ManyLights, world.level);
     let gathers = |number| probe.component.light(number, bounce);
     samples.choose_lights(world, (vertices, numbers), sums, gathers);
     // All of them emit photons, or none.

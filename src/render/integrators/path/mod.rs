@@ -20,7 +20,7 @@ pub(crate) use light_samples::{add_light, add_one_of_many, choose_light};
 #[cfg(test)]
 pub(crate) use reference::radiance_alone;
 pub(crate) use vertices::{Aimed, Vertices};
-pub(crate) use wave::{PathWave, add_caustics, by_paths, follow, go_on_from};
+pub(crate) use wave::{PathWave, add_caustics, by_paths, shade_and_continue, trace_rays};
 
 use super::light_component::LightComponent;
 use super::probe::{Probe, RAY_BUDGET, Sample};
@@ -99,7 +99,7 @@ pub(crate) enum Continuation {
 
 /// Finds what a path's ray leads to, given the nearest object that it hits, and reduces the
 /// throughput by absorption up to there.
-pub(crate) fn meet<C>(
+pub(crate) fn classify_hit<C>(
     probe: &Probe<'_, C>,
     path: &mut Path,
     sample: &Sample,
@@ -131,7 +131,7 @@ pub(crate) fn meet<C>(
 
 /// Continues a path in a sampled direction, if there is one, the depth and the budget allow it
 /// and it survives Russian roulette by its numbers for the bounce.
-fn onward<C: Fn() -> bool>(
+fn continue_path<C: Fn() -> bool>(
     probe: &mut Probe<'_, C>,
     path: &mut Path,
     next: Option<BsdfSample>,
@@ -155,7 +155,7 @@ fn onward<C: Fn() -> bool>(
     } else {
         FAINT_BY_POINT_LIGHTS
     };
-    path.go_on(next, faint, chance)
+    path.advance(next, faint, chance)
 }
 
 /// Whether the light with this index, which has a size and which a path hits, is part of the light
@@ -229,7 +229,7 @@ impl Path {
 
     /// Continues a path; if its throughput is below `faint`, `chance`, a number in 0..1, decides by
     /// Russian roulette (Arvo and Kirk, "Particle Transport and Image Synthesis", 1990).
-    fn go_on(&mut self, next: BsdfSample, faint: f64, chance: f64) -> Continuation {
+    fn advance(&mut self, next: BsdfSample, faint: f64, chance: f64) -> Continuation {
         self.throughput *= next.weight;
         if !self.throughput.is_finite() {
             return Continuation::Overflow;

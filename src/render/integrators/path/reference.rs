@@ -6,13 +6,13 @@ use glam::DVec3;
 
 use super::emission::{Target, emission, sent_by_object, sent_by_sky};
 use super::emitter_samples::samples_emitters;
-use super::{Continuation, Path, PathHit, density_of, meet, onward};
+use super::{Continuation, Path, PathHit, classify_hit, continue_path, density_of};
 use crate::integrators::caustics::caustics;
-use crate::integrators::direct::{Facing, Shadow, sent_back, shadow, shadowed};
+use crate::integrators::direct::{LightGeometry, Shadow, sent_back, shadow, shadowed};
 use crate::integrators::probe::{Probe, Sample};
 use crate::integrators::vertex::Vertex;
 use crate::light::{SphereLight, Spheres, incoming, light_sphere, luminous_sphere};
-use crate::sampling::{Sampler, Use, share};
+use crate::sampling::{Purpose, Sampler, share};
 use crate::world::Occlusion;
 use geometry::Ray;
 use geometry::lanes::Vector;
@@ -32,7 +32,7 @@ pub(crate) fn radiance_alone<C: Fn() -> bool>(probe: &mut Probe<'_, C>, sample: 
     let mut radiance = Rgb::ZERO;
     loop {
         let nearest = world.nearest(&path.ray, path.reach(sample));
-        let nearest = match meet(probe, &mut path, sample, nearest) {
+        let nearest = match classify_hit(probe, &mut path, sample, nearest) {
             PathHit::Nothing(around) => return radiance + path.of_nothing(world, around),
             PathHit::Light {
                 radiance: sent,
@@ -42,14 +42,14 @@ pub(crate) fn radiance_alone<C: Fn() -> bool>(probe: &mut Probe<'_, C>, sample: 
             PathHit::Surface(nearest) => nearest,
         };
         let mut mapped = None;
-        let (point, material) = world.arrive(&path.ray, nearest, &mut mapped);
+        let (point, material) = world.shading_point(&path.ray, nearest, &mut mapped);
         let vertex = Vertex::new(world, nearest, point, material);
         if material.is_lit(point.side) {
             radiance += path.throughput * local(probe, &path, &vertex, sample.sampler);
         }
-        let numbers = sample.sampler.four(path.bounce, Use::Bounce);
+        let numbers = sample.sampler.four(path.bounce, Purpose::Bounce);
         let next = vertex.sample(&path.ray, numbers, (sample.sampler, path.bounce));
-        let continuation = onward(probe, &mut path, next, numbers);
+        let continuation = continue_path(probe, &mut path, next, numbers);
         if !matches!(continuation, Continuation::Goes { .. }) {
             return radiance;
         }
@@ -62,10 +62,10 @@ fn local<C>(probe: &mut Probe<'_, C>, path: &Path, vertex: &Vertex<'_>, sampler:
     let bounce = path.bounce;
     let mut of_lights = Rgb::ZERO;
     for number in world.many_lights.others() {
-        let [u, v, ..] = sampler.four(bounce, Use::Light(number as u32));
+        let [u, v, ..] = sampler.four(bounce, Purpose::Light(number as u32));
         of_lights += of_light(probe, (number, 1.0), vertex, bounce, [u, v]);
     }
-    let numbers = sampler.four(bounce, Use::ManyLights);
+    let numbers = sampler.four(bounce, Purpose::ManyLights);
     let at = place_of(vertex);
     if !world.many_lights.is_empty()
         && let Some(chosen) = world.many_lights.choose(at, numbers)
@@ -78,8 +78,13 @@ fn local<C>(probe: &mut Probe<'_, C>, path: &Path, vertex: &Vertex<'_>, sampler:
         local += caustics(probe, vertex, bounce);
     }
     if samples_emitters(probe, vertex, bounce) {
-        let of_object = of_object(probe, vertex, bounce, sampler.four(bounce, Use::Emitter));
-        let of_sky = of_sky(probe, vertex, bounce, sampler.four(bounce, Use::Sky));
+        let of_object = of_object(
+            probe,
+            vertex,
+            bounce,
+            sampler.four(bounce, Purpose::Emitter),
+        );
+        let of_sky = of_sky(probe, vertex, bounce, sampler.four(bounce, Purpose::Sky));
         local += of_object + of_sky;
     }
     local
@@ -129,16 +134,16 @@ fn of_point_light(vertex: &Vertex<'_>, light: &Light, place: [f64; 2]) -> Option
     let from = point.surface.point;
     let chosen = light_sphere(light).and_then(|sphere| sphere.choose(from, place));
     let incoming = chosen.or_else(|| incoming(light, from.into()))?;
-    let facing = Facing::new(&point.into(), light, incoming);
-    if !facing.is_lit {
+    let to_light = LightGeometry::new(&point.into(), light, incoming);
+    if !to_light.is_lit {
         return None;
     }
-    let toward = facing.toward.into();
+    let toward = to_light.toward.into();
     let scattered = bsdf.lobes.scatter(point, toward);
     let reflected = scattered.value + bsdf.lobes.highlight(point, toward);
     Some(Unshadowed {
         light: sent_back(light, from, || toward, reflected)?,
-        shadow: facing.shadow,
+        shadow: to_light.shadow,
     })
 }
 

@@ -1,8 +1,8 @@
 //! Paths traced together, one bounce of each at a time, so that their rays and shadow rays form
 //! packets. The order of summation within each path does not depend on the others.
 //!
-//! A bounce has these steps: [`follow`] its rays, sample [lights](super::light_samples) and
-//! [emitters](super::emitter_samples) at their hits, add photons, and [go on](go_on_from) from there.
+//! A bounce has these steps: [trace](trace_rays) its rays, sample [lights](super::light_samples) and
+//! [emitters](super::emitter_samples) at their hits, add photons, and [shade and continue](shade_and_continue) from there.
 
 use std::borrow::Cow;
 
@@ -11,13 +11,13 @@ use super::emitter_samples::{EmitterSamples, add_emitters};
 use super::light_samples::{LightSamples, add_lights};
 use super::shadow_rays::VertexLight;
 use super::vertices::{Continuations, Vertices};
-use super::{Continuation, Path, PathHit, gathers, meet, onward};
+use super::{Continuation, Path, PathHit, classify_hit, continue_path, gathers};
 use crate::integrators::caustics::caustics;
 use crate::integrators::hit_material::HitMaterial;
 use crate::integrators::probe::{Probe, Sample, SampleResult};
 use crate::integrators::vertex::Vertex;
 use crate::material::BsdfSample;
-use crate::sampling::{Draws, Fours, Use};
+use crate::sampling::{Draws, Fours, Purpose};
 use crate::world::{Dependencies, HitPoints, Nearest, NearestHits, World};
 use geometry::Packets;
 use geometry::lanes::WIDTH;
@@ -94,7 +94,7 @@ fn bounce<C: Fn() -> bool>(
     samples: &[Sample],
     seen: &mut [SampleResult],
 ) {
-    let hits = follow(probe, wave, samples, seen);
+    let hits = trace_rays(probe, wave, samples, seen);
     let vertices = hits.vertices(probe.world, wave, samples);
     let vertices = Vertices::collect(&vertices);
     let PathWave {
@@ -111,13 +111,13 @@ fn bounce<C: Fn() -> bool>(
     add_caustics(probe, &vertices, sums, draws.node);
     growing.clear();
     let level = probe.world.level;
-    let batches = vertices.iter().zip(draws.four(Use::Bounce, level));
+    let batches = vertices.iter().zip(draws.four(Purpose::Bounce, level));
     for ((vertices, numbers), sums) in batches.zip(sums.chunks(WIDTH)) {
         let by_lobes = vertices.sample(level, numbers);
         let batch = (vertices, numbers, &by_lobes);
         for (lane, sum) in sums.iter().enumerate() {
             let (path, sample) = (&mut paths[sum.path], &samples[sum.path]);
-            let departure = go_on_from(probe, batch, lane, sum, path, sample);
+            let departure = shade_and_continue(probe, batch, lane, sum, path, sample);
             seen[sum.path].radiance += departure.arriving;
             if let Continuation::Goes { .. } = departure.continuation {
                 growing.push(sum.path);
@@ -127,7 +127,7 @@ fn bounce<C: Fn() -> bool>(
 }
 
 /// Follows the rays of the paths. What they find other than surfaces is added to `seen`.
-pub(crate) fn follow<'w, C>(
+pub(crate) fn trace_rays<'w, C>(
     probe: &mut Probe<'w, C>,
     wave: &mut PathWave,
     samples: &[Sample],
@@ -156,7 +156,7 @@ pub(crate) fn follow<'w, C>(
     for (place, &number) in growing.iter().enumerate() {
         let (path, seen) = (&mut paths[number], &mut seen[number]);
         let nearest = nearest[place / WIDTH].get(place % WIDTH);
-        match meet(probe, path, &samples[number], nearest) {
+        match classify_hit(probe, path, &samples[number], nearest) {
             PathHit::Nothing(radiance) => {
                 if probe.component.glow(path.bounce) {
                     seen.radiance += path.of_nothing(world, radiance);
@@ -213,7 +213,7 @@ pub(crate) fn add_caustics<C>(
 
 /// Continues a path from the surface in a lane of a batch, given the continuations by lobes there.
 #[inline(always)]
-pub(crate) fn go_on_from<C: Fn() -> bool>(
+pub(crate) fn shade_and_continue<C: Fn() -> bool>(
     probe: &mut Probe<'_, C>,
     (vertices, numbers, by_lobes): (&Vertices<'_, '_>, &Fours, &Continuations),
     lane: usize,
@@ -238,7 +238,7 @@ pub(crate) fn go_on_from<C: Fn() -> bool>(
         radiance,
         arriving,
         next,
-        continuation: onward(probe, path, next, numbers),
+        continuation: continue_path(probe, path, next, numbers),
     }
 }
 

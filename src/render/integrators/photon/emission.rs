@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::aim::Aim;
 use crate::light::{falloff_shares, luminous_sphere, radiant_intensity};
 use crate::material::{Microfacets, strength};
-use crate::sampling::{Sampler, Use, warp};
+use crate::sampling::{Purpose, Sampler, warp};
 use crate::world::World;
 use geometry::{Aabb, Ray, Shape};
 use scene::{Emitter, Falloff, Highlight, Light, Material, Object, Rgb};
@@ -111,7 +111,7 @@ impl Emission {
 
     /// Emits a photon; `None` if nothing emits any.
     pub(crate) fn emit(&self, sampler: Sampler) -> Option<Emitted> {
-        let [number, cell, u, v] = sampler.four(Sampler::ROOT, Use::Emission);
+        let [number, cell, u, v] = sampler.four(Sampler::ROOT, Purpose::Emission);
         let chosen = number * self.power;
         let at = self
             .sources
@@ -132,7 +132,7 @@ impl Emission {
             });
         }
         // Uniform over the disc that the sphere shows in this direction.
-        let [u, v, ..] = sampler.four(Sampler::ROOT, Use::Lens);
+        let [u, v, ..] = sampler.four(Sampler::ROOT, Purpose::Lens);
         let DVec2 { x, y } = warp::in_disc([u, v]);
         let height = (1.0 - x * x - y * y).max(0.0).sqrt();
         let [right, up] = warp::basis(direction);

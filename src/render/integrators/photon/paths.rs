@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::map::{Photon, PhotonMap};
 use super::{CHUNK, Emission, Emitted, PhotonMaps, PhotonRules, Photons, SEED, radius};
 use crate::material::{Bsdf, transmitted};
-use crate::sampling::{Sampler, Use};
+use crate::sampling::{Purpose, Sampler};
 use crate::world::World;
 use scene::MAX_SPP;
 
@@ -109,7 +109,7 @@ impl Photons {
             let (part, number) = (number / MAX_SPP, number % MAX_SPP);
             let sampler = Sampler::new(index, part, number, self.rules.seed ^ SEED);
             if let Some(emitted) = self.emission.emit(sampler) {
-                follow(world, emitted, self.rules.depth, sampler, &mut arrived);
+                trace_photon(world, emitted, self.rules.depth, sampler, &mut arrived);
             }
         }
         arrived
@@ -118,7 +118,7 @@ impl Photons {
 
 /// Follows a photon via mirrors and boundaries and keeps it where it arrives at surfaces that
 /// scatter.
-fn follow(
+fn trace_photon(
     world: &World,
     emitted: Emitted,
     depth: u32,
@@ -140,11 +140,11 @@ fn follow(
             return;
         }
         let mut mapped = None;
-        let (point, material) = world.arrive(&ray, nearest, &mut mapped);
+        let (point, material) = world.shading_point(&ray, nearest, &mut mapped);
         let bsdf = Bsdf::at(&point, material, world.gloss);
         if 0 < bounce && bsdf.takes_photons(&point) {
             kept += 1;
-            let [.., chance] = sampler.four(bounce, Use::Spread);
+            let [.., chance] = sampler.four(bounce, Purpose::Spread);
             // Of the photons kept on one way, of which mirrors make many, the nth with a chance
             // of 1/n, which bounds the memory.
             if chance * f64::from(kept) < 1.0 {

@@ -9,7 +9,7 @@ use crate::material::{
     Point, Refraction, facet, folded, fresnel, mirror, mirror_weight, reflect, refract_all,
     refraction_indices, spread,
 };
-use crate::sampling::{Sampler, Use};
+use crate::sampling::{Purpose, Sampler};
 use crate::world::HitPoints;
 use geometry::lanes::{Eight, Row, Simd, WIDTH, bits};
 use geometry::{Packet, Ray, Rays};
@@ -62,7 +62,7 @@ impl WhittedWave<'_> {
     /// Adds the radiance of a packet's points to `seen` and pushes their secondary rays, the mirrored
     /// ray last because it is traced first. The next ray of each tree moves to the next front.
     #[inline(always)]
-    pub(crate) fn go_on<S: Simd>(
+    pub(crate) fn branch_packet<S: Simd>(
         &mut self,
         simd: S,
         packet: usize,
@@ -114,7 +114,12 @@ impl WhittedWave<'_> {
                 let numbers = |purpose| sampler.pair(state.node, purpose);
                 if let Some(exponent) = material.facets(gloss) {
                     let point = hit_points.point(packet, lane);
-                    let facet = facet(point.normal, point.view, exponent, numbers(Use::Reflection));
+                    let facet = facet(
+                        point.normal,
+                        point.view,
+                        exponent,
+                        numbers(Purpose::Reflection),
+                    );
                     by_facet((&point, facet), material, push);
                 } else {
                     specular.branch((packet, hit_points), lane, material, numbers, push);
@@ -165,7 +170,7 @@ impl<S: Simd> Specular<S> {
         (packet, hit_points): (&Packet, &HitPoints),
         lane: usize,
         material: &Material,
-        numbers: impl Fn(Use) -> Option<[f64; 2]>,
+        numbers: impl Fn(Purpose) -> Option<[f64; 2]>,
         mut push: impl FnMut(Branch),
     ) {
         let side = hit_points.side(lane);
@@ -189,7 +194,7 @@ impl<S: Simd> Specular<S> {
             };
             by_boundary = reflectance * dielectric.tint;
             if let Some(ray) = ray {
-                let numbers = || numbers(Use::Refraction);
+                let numbers = || numbers(Purpose::Refraction);
                 push(Branch {
                     kind: Secondary::Refracted,
                     ray: spread_ray(ray, dielectric.spread, -1.0, point, numbers),
@@ -211,7 +216,7 @@ impl<S: Simd> Specular<S> {
             if weight == Rgb::ZERO {
                 continue;
             }
-            let numbers = || numbers(Use::Reflection);
+            let numbers = || numbers(Purpose::Reflection);
             push(Branch {
                 kind,
                 ray: spread_ray(self.mirrored.ray(lane), tangent, 1.0, point, numbers),

@@ -10,13 +10,13 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::direct::{Facing, Points, Shadow, sent_back};
+use super::direct::{LightGeometry, ShadingPoints, Shadow, sent_back};
 use super::hit_material::HitMaterial;
 use super::light_component::LightComponent;
 use super::probe::{Probe, Sample, SampleResult};
 use crate::light::{Incoming, SphereLight, light_sphere, lights};
 use crate::material::{reflectance, transmitted};
-use crate::sampling::{Sampler, Use};
+use crate::sampling::{Purpose, Sampler};
 use crate::world::{Dependencies, Nearest, Occlusion, World};
 use geometry::lanes::{Simd, WIDTH, bits, dispatch};
 use scene::{Light, Rgb};
@@ -36,7 +36,7 @@ pub(crate) fn by_whitted<'w, C: Fn() -> bool>(
     wave.start(samples);
     seen.resize(seen.len() + samples.len(), SampleResult::NOTHING);
     while wave.advance(&mut probe.counts) && !(probe.cancelled)() {
-        follow(probe, wave, samples, seen);
+        trace_front(probe, wave, samples, seen);
         for number in 0..probe.world.lights().len() {
             // Each light may take as many rays as there are samples.
             if 0 < number && (probe.cancelled)() {
@@ -54,7 +54,7 @@ pub(crate) fn by_whitted<'w, C: Fn() -> bool>(
 }
 
 /// Finds the hits of the front's rays and shades them without lights.
-pub(crate) fn follow<'w, C>(
+pub(crate) fn trace_front<'w, C>(
     probe: &Probe<'w, C>,
     wave: &mut WhittedWave<'w>,
     samples: &[Sample],
@@ -121,7 +121,7 @@ pub(crate) fn branch<C>(
     dispatch!(probe.world.level, simd => {
         for packet in 0..wave.front.rays.len() {
             let rules = (probe.depth, probe.component, probe.world.gloss);
-            wave.go_on(simd, packet, rules, samples, seen);
+            wave.branch_packet(simd, packet, rules, samples, seen);
         }
     });
 }
@@ -191,7 +191,7 @@ impl<'w> WhittedWave<'w> {
         }
         let rays = &self.front.rays[packet].rays;
         let first = packet * WIDTH;
-        let points = Points {
+        let points = ShadingPoints {
             surface: hit_points.surface.load(simd),
             normal: hit_points.normal.load(simd),
             view: -rays.direction.load(simd),
@@ -213,8 +213,8 @@ impl<'w> WhittedWave<'w> {
                 }
             }
         }
-        let facing = Facing::new(&points, light, incoming);
-        let mut lit = bits::<S>(facing.is_lit) & self.front.rays[packet].lanes;
+        let to_light = LightGeometry::new(&points, light, incoming);
+        let mut lit = bits::<S>(to_light.is_lit) & self.front.rays[packet].lanes;
         while lit != 0 {
             let lane = lit.trailing_zeros() as usize % WIDTH;
             lit &= lit - 1;
@@ -225,21 +225,21 @@ impl<'w> WhittedWave<'w> {
             };
             let halfway = || {
                 let view = -rays.direction.get(lane);
-                let toward: DVec3 = facing.toward.lane(lane);
+                let toward: DVec3 = to_light.toward.lane(lane);
                 hit_points.normal.get(lane).dot((toward + view).normalize())
             };
             let reflected = reflectance(
                 material,
-                facing.cosine[lane],
-                facing.mirrored[lane],
+                to_light.cosine[lane],
+                to_light.mirrored[lane],
                 halfway,
             );
             let place = hit_points.surface.point.get(lane);
-            let toward = || facing.toward.lane(lane);
+            let toward = || to_light.toward.lane(lane);
             let Some(unblocked) = sent_back(light, place, toward, reflected) else {
                 continue;
             };
-            match &facing.shadow {
+            match &to_light.shadow {
                 None => {
                     seen[self.front.states[first + lane].tree].touched |=
                         Dependencies::light(number);
@@ -263,7 +263,7 @@ impl RayState {
         point: DVec3,
         sampler: Sampler,
     ) -> Option<Incoming<f64>> {
-        let place = sampler.pair(self.node, Use::Light(number as u32))?;
+        let place = sampler.pair(self.node, Purpose::Light(number as u32))?;
         sphere.choose(point, place)
     }
 

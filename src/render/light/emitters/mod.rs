@@ -156,7 +156,7 @@ impl<'s> MeshLanes<'s> {
 
 /// What is known from a world before, for whose emitters it may do.
 #[derive(Clone, Copy)]
-pub(crate) struct Known<'k> {
+pub(crate) struct PreviousEmitters<'k> {
     pub(crate) emitters: &'k Arc<Emitters>,
     pub(crate) textures: &'k Textures,
     /// The objects whose shapes differ.
@@ -175,7 +175,7 @@ impl Emitters {
     pub(crate) fn build(
         scene: &Scene,
         textures: &Textures,
-        known: Option<Known<'_>>,
+        known: Option<PreviousEmitters<'_>>,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<Arc<Self>> {
         let glows = glows(scene);
@@ -323,7 +323,7 @@ impl Emitters {
     }
 
     /// Whether these emitters are those of a scene with these glows.
-    fn serve(&self, glows: &[Glow], textures: &Textures, known: Known<'_>) -> bool {
+    fn serve(&self, glows: &[Glow], textures: &Textures, known: PreviousEmitters<'_>) -> bool {
         let is_same = |object: u32| {
             let found = self.glows.binary_search_by_key(&object, |glow| glow.object);
             found.is_err()

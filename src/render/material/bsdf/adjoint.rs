@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use super::Bsdf;
 use crate::material::{Point, Refraction, folded, reflect, refraction_indices, spread, strength};
-use crate::sampling::{Sampler, Use};
+use crate::sampling::{Purpose, Sampler};
 use geometry::Ray;
 use geometry::Side;
 use scene::Rgb;
@@ -51,11 +51,11 @@ impl Bsdf<'_> {
         let of_mirror = strength(self.mirror);
         let total = of_mirror + strength(tint);
         let kept = total.min(1.0);
-        let [choice, way, ..] = sampler.four(bounce, Use::Bounce);
+        let [choice, way, ..] = sampler.four(bounce, Purpose::Bounce);
         if kept <= choice || kept == 0.0 {
             return None;
         }
-        let [u, v, ..] = sampler.four(bounce, Use::Spread);
+        let [u, v, ..] = sampler.four(bounce, Purpose::Spread);
         let meeting = Meeting {
             bsdf: self,
             point,

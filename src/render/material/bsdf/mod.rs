@@ -9,7 +9,7 @@ use crate::material::microfacet::Microfacets;
 use crate::material::optics::{Refraction, facet, folded, reflect, schlick, spread, strength};
 use crate::material::point::Point;
 use crate::material::{facets_reflectance, refraction_indices};
-use crate::sampling::{Sampler, Use};
+use crate::sampling::{Purpose, Sampler};
 use geometry::Ray;
 use scene::{GlossRule, Highlight, Material, Rgb};
 
@@ -114,7 +114,7 @@ impl<'m> Bsdf<'m> {
         (sampler, bounce): (Sampler, u32),
     ) -> Option<BsdfSample> {
         let numbers = || {
-            let [u, v, ..] = sampler.four(bounce, Use::Spread);
+            let [u, v, ..] = sampler.four(bounce, Purpose::Spread);
             Some([u, v])
         };
         let specular = |direction, weight, absorption| {
@@ -217,7 +217,7 @@ impl<'m> Bsdf<'m> {
         let Some(exponent) = self.facets else {
             return point.normal;
         };
-        let [u, v, ..] = sampler.four(bounce, Use::Spread);
+        let [u, v, ..] = sampler.four(bounce, Purpose::Spread);
         facet(point.normal, point.view, exponent, Some([u, v]))
     }
 

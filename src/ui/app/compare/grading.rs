@@ -4,7 +4,7 @@
 use crate::app::{Shared, display};
 use crate::reference::Made;
 use image_file::ImageFormat;
-use render::{Aov, Frames, Job, Record, Region, Settings, denoises};
+use render::{Aov, Frames, Job, PictureMetadata, Region, Settings, denoises};
 use scene::{Camera, Rendering, Size};
 
 /// The job that corresponds to a picture of this size. What the user has set comes before what the
@@ -87,7 +87,11 @@ pub(super) fn graded_aov(shared: &Shared, made: &Made) -> Option<Aov> {
 
 /// The record of a picture's file as far as it is of use for the present scene, and the size of the whole
 /// picture with the only part of it that was traced.
-fn graded(shared: &Shared, made: &Made, picture: Size) -> (Option<Record>, (Size, Option<Region>)) {
+fn graded(
+    shared: &Shared,
+    made: &Made,
+    picture: Size,
+) -> (Option<PictureMetadata>, (Size, Option<Region>)) {
     let mut record = made.record.as_deref().cloned();
     let framing = match &mut record {
         Some(record) => record.framing(picture),

@@ -1,7 +1,7 @@
 //! The render setting suggested for a picture.
 
 use language::Prospect;
-use render::{Frame, Progress, Trials};
+use render::{Frame, Progress, SettingSearch};
 use scene::{RenderKey, Rendering};
 
 /// A render setting and its value.
@@ -22,10 +22,10 @@ pub struct Suggestions {
     judged: Option<u64>,
 }
 
-/// Trials of what mends the preview.
+/// SettingSearch of what mends the preview.
 #[derive(Debug)]
 pub(crate) struct RunningTrials {
-    pub(crate) next: Trials,
+    pub(crate) next: SettingSearch,
     /// The generation of the picture under way, once it is traced.
     pub(crate) generation: Option<u64>,
     /// What the preview is of: the text's revision, and the render settings.

@@ -33,7 +33,7 @@ pub(crate) fn job(spp: u32) -> Job {
 }
 
 /// The complete picture of a job.
-fn traced(job: &Job) -> Kept {
+fn traced(job: &Job) -> Checkpoint {
     let (wake, woken) = mpsc::channel();
     let wake = move || {
         let _ = wake.send(());
@@ -44,7 +44,7 @@ fn traced(job: &Job) -> Kept {
         woken.recv().expect("the worker runs");
         let frame = renderer.latest();
         if frame.is_some_and(|frame| frame.progress.complete) {
-            return renderer.keep().expect("it is complete");
+            return renderer.into_checkpoint().expect("it is complete");
         }
     }
 }

@@ -5,7 +5,7 @@ use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 use super::steps::number;
 use super::*;
 use crate::reference::{Made, ReferenceRead};
-use render::{Frame, Job, NO_OBJECT, Record};
+use render::{Frame, Job, NO_OBJECT, PictureMetadata};
 use scene::{Images, Size};
 
 impl Session {
@@ -62,7 +62,7 @@ impl Session {
                 let frame = Frame::drawn(size, vec![[0; 3]; size.pixels()]);
                 let record = (!record.is_empty()).then(|| unescaped(&self.named(record)));
                 let made = Made {
-                    record: record.map(|text| Box::new(Record::read(&text))),
+                    record: record.map(|text| Box::new(PictureMetadata::read(&text))),
                     holds_light: false,
                 };
                 Ok(ReferenceRead::Picture(Arc::new(frame), made))

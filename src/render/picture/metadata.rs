@@ -7,7 +7,7 @@ use scene::{MAX_PIXELS, RenderKey, Rendering, Scene, Size, Viewpoint};
 
 /// How a picture was made, as far as its file says and can be believed.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Record {
+pub struct PictureMetadata {
     /// The version of the program that made it.
     pub version: Option<String>,
     /// The digest of the scene's text and all files it names.
@@ -47,8 +47,8 @@ const LONGEST_VALUE: usize = 8192;
 /// The most characters named of an entry that cannot be used.
 const LONGEST: usize = 40;
 
-/// Takes a value into a record; `None` if it is none.
-type Take = fn(&mut Record, &str) -> Option<()>;
+/// Sets what an entry says; `None` if its value is none.
+type Take = fn(&mut PictureMetadata, &str) -> Option<()>;
 
 /// Sets what is `None` if the value is none.
 fn set<T>(place: &mut Option<T>, value: Option<T>) -> Option<()> {
@@ -108,30 +108,30 @@ fn is_always(name: &str) -> bool {
     name != DENOISE && !RenderKey::named(name).is_some_and(is_added)
 }
 
-impl Record {
-    /// Reads a record: an entry a line, its name before the first blank. Of an entry given twice the
+impl PictureMetadata {
+    /// Reads metadata: an entry a line, its name before the first blank. Of an entry given twice the
     /// first good value counts.
     pub fn read(text: &str) -> Self {
-        let mut record = Self::default();
+        let mut metadata = Self::default();
         for line in text.lines().filter(|line| !line.is_empty()) {
             let (name, value) = line.split_once(' ').unwrap_or((line, ""));
             let known = names().find(|known| *known == name);
             if let Some(name) = known
-                && !record.there.contains(&name)
+                && !metadata.there.contains(&name)
             {
-                record.there.push(name);
+                metadata.there.push(name);
             }
-            let is_new = |name: &&str| record.read.iter().all(|(read, _)| read != name);
+            let is_new = |name: &&str| metadata.read.iter().all(|(read, _)| read != name);
             let new = known.filter(|name| is_new(name) && value.len() <= LONGEST_VALUE);
-            match new.filter(|name| record.take(name, value).is_some()) {
-                Some(name) => record.read.push((name, value.to_owned())),
-                None => record.refuse(line),
+            match new.filter(|name| metadata.take(name, value).is_some()) {
+                Some(name) => metadata.read.push((name, value.to_owned())),
+                None => metadata.refuse(line),
             }
         }
-        if !record.read.is_empty() {
-            record.complete();
+        if !metadata.read.is_empty() {
+            metadata.complete();
         }
-        record
+        metadata
     }
 
     /// Takes the value of an entry; `None` if it is none.
@@ -233,7 +233,7 @@ impl Record {
     }
 
     /// The size of the whole picture and what of it was traced, for a file whose picture has this size.
-    /// If the record says something else, the picture is taken to be whole.
+    /// If the metadata says something else, the picture is taken to be whole.
     pub fn framing(&mut self, picture: Size) -> (Size, Option<Region>) {
         let Some(size) = self.size else {
             return (picture, None);
@@ -306,31 +306,35 @@ mod tests {
             ("seed 7\n", "seed 7\n\n", None),
         ] {
             let text = WHOLE.replacen(from, to, 1);
-            let record = Record::read(&text);
-            assert_eq!(record.unused().as_deref(), unused, "{text}");
-            assert_eq!(record.rendering.transfer, Some(Transfer::Srgb), "{text}");
-            assert_eq!(record.provenance().is_some(), unused.is_none(), "{text}");
+            let metadata = PictureMetadata::read(&text);
+            assert_eq!(metadata.unused().as_deref(), unused, "{text}");
+            assert_eq!(metadata.rendering.transfer, Some(Transfer::Srgb), "{text}");
+            assert_eq!(metadata.provenance().is_some(), unused.is_none(), "{text}");
         }
-        let depth = |text: &str| Record::read(text).rendering.depth;
+        let depth = |text: &str| PictureMetadata::read(text).rendering.depth;
         assert_eq!(depth(&WHOLE.replace("gloss", "depth 3\ngloss")), Some(2));
     }
 
     #[test]
     fn a_record_cut_short_anywhere_is_read_as_far_as_it_goes() {
         for end in 0..WHOLE.len() {
-            let record = Record::read(&WHOLE[..end]);
-            assert!(record.is_empty() || record.provenance().is_none() || WHOLE.len() - 1 <= end);
+            let metadata = PictureMetadata::read(&WHOLE[..end]);
+            assert!(
+                metadata.is_empty() || metadata.provenance().is_none() || WHOLE.len() - 1 <= end
+            );
         }
         let huge = "x".repeat(1 << 20);
-        let named = Record::read(&huge).unused().expect("it is no entry");
+        let named = PictureMetadata::read(&huge)
+            .unused()
+            .expect("it is no entry");
         assert!(named.chars().count() <= LONGEST + 1, "{named}");
-        assert!(Record::read(&huge).is_empty());
+        assert!(PictureMetadata::read(&huge).is_empty());
     }
 
     #[test]
     fn whatever_is_written_is_read_again() {
-        let record = Record::read(WHOLE);
-        let provenance = record.provenance().expect("nothing is wrong");
+        let metadata = PictureMetadata::read(WHOLE);
+        let provenance = metadata.provenance().expect("nothing is wrong");
         let settings = provenance.settings;
         let written = format!("{}spp {}\n", provenance.lines(), settings.spp);
         assert_eq!(written, WHOLE);
@@ -340,9 +344,9 @@ mod tests {
             .replace("region none", "region 1,2,3,4")
             .replace("aov none", "aov direct 3")
             .replace("gloss", "noise 0.02\nclamp 8.5\ngloss");
-        let record = Record::read(&other);
-        assert_eq!(record.unused(), None);
-        let provenance = record.provenance().expect("nothing is wrong");
+        let metadata = PictureMetadata::read(&other);
+        assert_eq!(metadata.unused(), None);
+        let provenance = metadata.provenance().expect("nothing is wrong");
         assert_eq!(format!("{}spp 4\n", provenance.lines()), other);
     }
 
@@ -376,16 +380,22 @@ mod tests {
         for settings in [plain, other].into_iter().chain(one).chain(aovs) {
             let provenance = Provenance {
                 settings,
-                ..Record::read(WHOLE).provenance().expect("nothing is wrong")
+                ..PictureMetadata::read(WHOLE)
+                    .provenance()
+                    .expect("nothing is wrong")
             };
             let text = format!("{}spp {}\n", provenance.lines(), settings.spp);
-            assert_eq!(Record::read(&text).provenance(), Some(provenance), "{text}");
+            assert_eq!(
+                PictureMetadata::read(&text).provenance(),
+                Some(provenance),
+                "{text}"
+            );
             // Each name and value is needed.
             for (name, value) in settings.written() {
                 let entry = format!("\n{name} {value}\n");
                 let wrong = text.replace(&entry, &format!("\n{name} ?\n"));
                 assert_ne!(wrong, text);
-                assert_eq!(Record::read(&wrong).provenance(), None, "{name}");
+                assert_eq!(PictureMetadata::read(&wrong).provenance(), None, "{name}");
             }
         }
     }
@@ -420,10 +430,10 @@ mod tests {
                 Some("size 8x6 region 7,2,3,4 (the picture is 3x4)"),
             ),
         ] {
-            let mut record =
-                Record::read(&WHOLE.replace("region none", &format!("region {region}")));
-            assert_eq!(record.framing(picture), expected);
-            assert_eq!(record.unused().as_deref(), unused);
+            let mut metadata =
+                PictureMetadata::read(&WHOLE.replace("region none", &format!("region {region}")));
+            assert_eq!(metadata.framing(picture), expected);
+            assert_eq!(metadata.unused().as_deref(), unused);
         }
     }
 }

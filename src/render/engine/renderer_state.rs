@@ -15,7 +15,7 @@ const PAUSED: u64 = 1;
 
 /// The two shared cells, and the signal that the first has changed.
 #[derive(Debug, Default)]
-pub(crate) struct Shared {
+pub(crate) struct RendererState {
     state: AtomicU64,
     slot: Mutex<Slot>,
     changed: Condvar,
@@ -31,7 +31,7 @@ struct Slot {
     pauses: Duration,
 }
 
-impl Shared {
+impl RendererState {
     /// Makes all previous jobs old and ends a pause; returns the generation of the new one.
     pub(crate) fn begin(&self) -> u64 {
         let generation = self.state.load(Ordering::Relaxed) / 2 + 1;
@@ -82,7 +82,7 @@ impl Shared {
         slot.pauses + present
     }
 
-    /// Stores a frame for [`Shared::take`] and returns the previous one if it was not taken.
+    /// Stores a frame for [`RendererState::take`] and returns the previous one if it was not taken.
     pub(crate) fn publish(&self, frame: Frame) -> Option<Arc<Frame>> {
         self.lock().frame.replace(Arc::new(frame))
     }

@@ -15,7 +15,10 @@ use scene::{Integrator, Light, Material, Object, Scene};
 
 /// Returns the difference between two jobs with their worlds; `None` if more than materials,
 /// colours of lights and the number of samples differ.
-pub(crate) fn difference(before: (&Job, &World), after: (&Job, &World)) -> Option<Dependencies> {
+pub(crate) fn edit_difference(
+    before: (&Job, &World),
+    after: (&Job, &World),
+) -> Option<Dependencies> {
     let ((job, world), (new_job, new_world)) = (before, after);
     let (scene, new_scene) = (&*world.scene, &*new_world.scene);
     let is_alike = job.settings.trace_alike(&new_job.settings)

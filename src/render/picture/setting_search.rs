@@ -78,9 +78,9 @@ enum Trial {
     With(Rendering),
 }
 
-/// Trials of what mends a picture.
+/// The search for the render setting that mends a picture, a trial picture after the other.
 #[derive(Clone, Debug)]
-pub struct Trials {
+pub struct SettingSearch {
     /// The settings of the picture.
     settings: Settings,
     next: Trial,
@@ -117,7 +117,7 @@ impl fmt::Display for Fault {
     }
 }
 
-impl Trials {
+impl SettingSearch {
     /// Starts the trials for a complete picture of light of these settings, of whose scene the text shows a
     /// fault, or none; `None` if nothing is wrong with it. Whether one that is bright is too bright, the
     /// trials decide.

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::*;
-use crate::{Advice, Fault, Trials};
+use crate::{Advice, Fault, SettingSearch};
 use scene::Rendering;
 
 /// A scene with a material that sends back this much, and this environment.
@@ -47,7 +47,7 @@ fn picture(size: Size, grey: f32) -> Frame {
 }
 
 /// The depths of what is tried where pictures are as bright as `shade` says, and the advice.
-fn advice(trials: Trials, shade: impl Fn(&Settings) -> f32) -> (Vec<u32>, Option<Advice>) {
+fn advice(trials: SettingSearch, shade: impl Fn(&Settings) -> f32) -> (Vec<u32>, Option<Advice>) {
     let mut tried = Vec::new();
     let mut next = trials;
     loop {
@@ -73,7 +73,7 @@ fn depths_are_tried_where_light_grows_or_comes_back_whole() {
         (1.5, 1.0, whitted, 8, &[8, 8]),
     ] {
         let scene = reflecting(sent_back, around);
-        let trials = Trials::of_scene(&scene, &settings(integrator, depth), None);
+        let trials = SettingSearch::of_scene(&scene, &settings(integrator, depth), None);
         let trials = trials.expect("it is small");
         // Bright only as it is.
         let shade = |settings: &Settings| if settings.depth == depth { 9.0 } else { 0.2 };
@@ -104,7 +104,7 @@ fn the_best_setting_is_named_and_none_that_does_not_help() {
         (0.0, 0.4, Some(Fault::Black(0)), None),
     ] {
         let scene = reflecting(1.5, 0.0);
-        let trials = Trials::of_scene(&scene, &settings(Integrator::Path, 4), None);
+        let trials = SettingSearch::of_scene(&scene, &settings(Integrator::Path, 4), None);
         let trials = trials.expect("it is small");
         let shade = |settings: &Settings| if settings.depth == 4 { now } else { by_depth };
         let expected = fault.map(|fault| Advice { fault, cure });
@@ -125,7 +125,7 @@ fn small_pictures_keep_the_shape() {
             size,
             ..settings(Integrator::Path, 4)
         };
-        let trials = Trials::of_scene(&reflecting(0.5, 0.0), &settings, None);
+        let trials = SettingSearch::of_scene(&reflecting(0.5, 0.0), &settings, None);
         assert_eq!(trials.expect("it is small").settings().size, expected);
     }
 }

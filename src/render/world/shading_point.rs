@@ -14,7 +14,7 @@ use scene::Material;
 impl World {
     /// Returns the point where a ray hits an object, and its material there, which is in `mapped` if
     /// it has maps.
-    pub(crate) fn arrive<'m>(
+    pub(crate) fn shading_point<'m>(
         &'m self,
         ray: &Ray,
         nearest: Nearest,
