@@ -23,7 +23,7 @@ impl Kept {
             |text| serde_json::from_str(&text).expect("what is kept is JSON"),
         );
         Self {
-            vectors: render::vectors(),
+            vectors: render::simd_level_name(),
             before,
             rows: Map::new(),
         }

@@ -27,7 +27,7 @@ const PARALLEL: usize = 2048;
 
 /// The maximum number of boxes. Every node of more than eight boxes has eight children, so there is at most
 /// one node for seven boxes: a node's number and a lane fit into 32 bits.
-const MOST: usize = 1 << 31;
+const MOST_BOXES: usize = 1 << 31;
 
 /// The number of references filled between two cancellation checks, a few milliseconds: 4 MB, more than a
 /// huge page for each of two threads. Threads that first touch the same huge page wait for each other, or
@@ -45,7 +45,7 @@ pub(super) fn build(
 ) -> Result<Bvh, Cancelled> {
     let cancel = CancelCheck(cancelled);
     cancel.check()?;
-    let count = count.min(MOST) as u32;
+    let count = count.min(MOST_BOXES) as u32;
     let (reference, spread) = median_centre(count, aabb);
     let (mut references, unbounded) = collect_references(count, aabb, reference, &cancel)?;
     let bounded = references.len();

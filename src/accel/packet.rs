@@ -32,7 +32,7 @@ use super::{Bvh, Order};
 
 /// Up to this number of active rays, each is tested against all children of a node at once;
 /// otherwise all rays are tested against each child.
-const FEW: u32 = 2;
+const MOST_SINGLE_RAYS: u32 = 2;
 
 /// A child on the stack.
 #[derive(Clone, Copy)]
@@ -115,7 +115,7 @@ pub(super) fn traverse<S: Simd>(
             Child::Inner(number) => {
                 let node = &bvh.nodes[number as usize];
                 let base = stack.len();
-                if lanes.count_ones() <= FEW {
+                if lanes.count_ones() <= MOST_SINGLE_RAYS {
                     let hits = hit_few(node, &slopes, [start, reach], lanes);
                     for child in each_bit(hits.children) {
                         let child = child % WIDTH;

@@ -22,7 +22,7 @@ use geometry::lanes::{Lanes, Simd, SimdBase, Singles, Vector};
 const MARGIN: f32 = 4.0 * f32::EPSILON;
 
 /// The largest magnitude in computations: it leaves room for all roundings below that of `f32`.
-const MOST: f64 = (1_u128 << 126) as f64;
+const LARGEST: f64 = (1_u128 << 126) as f64;
 
 /// Twice the error of rounding to single precision, which covers earlier roundings too.
 const SLACK: f64 = f32::EPSILON as f64;
@@ -103,7 +103,7 @@ impl<N: Lanes> Approach<N> {
         let size = N::select(zero, all(1.0), inverse.abs());
         let most = origin.abs() + all(farthest);
         let largest = most.larger(all(1.0)) * size.larger(all(1.0));
-        let is_valid = all(1.0 / MOST).up_to(size) & largest.up_to(all(MOST));
+        let is_valid = all(1.0 / LARGEST).up_to(size) & largest.up_to(all(LARGEST));
         [
             N::select(is_valid, inverse, all(1.0)),
             N::select(is_valid, origin + slack, all(f64::INFINITY)),

@@ -170,7 +170,7 @@ fn measure(
         times[2].push(first_picture(job.clone(), tracing.means.threads)?);
         let begun = Instant::now();
         let tracer =
-            BlockTracer::new(job, tracing.means.threads, || false)?.ok_or(Error::Stopped)?;
+            BlockTracer::new(job, tracing.means.threads, &|| false)?.ok_or(Error::Stopped)?;
         times[1].push(begun.elapsed());
         let (took, rays) = trace(&tracer, settings.spp);
         times[3].push(took);
@@ -212,7 +212,7 @@ fn trace(tracer: &BlockTracer, spp: u32) -> (Duration, u64) {
         (0..blocks.count()).map(|number| Block::new(number, blocks)),
         spp,
         Duration::MAX,
-        || false,
+        &|| false,
         // The receiver lives until the end.
         |block: Block| {
             let _ = hand_over.send(block.counts.rays);

@@ -8,8 +8,8 @@ use super::{Messages, Tracing};
 use explain::{Place, Subject, cause, fault};
 use language::{Prospect, Source};
 use render::{
-    Advice, Fault, Frame, Frames, Job, Limit, PreparedScene, Progress, Provenance, SettingSearch,
-    Settings, exposes,
+    Advice, Display, Fault, Frame, Frames, Job, Limit, PreparedScene, Progress, Provenance,
+    SettingSearch, Settings,
 };
 use scene::{LEAST_ADAPTIVE_SPP, RenderKey, Rendering};
 
@@ -31,7 +31,7 @@ pub(super) fn print_without_effect(messages: Messages, over_text: &Rendering, se
 /// Says by what a picture is biased.
 pub(super) fn print_biases(messages: Messages, frame: &Frame, picture: &Provenance) {
     let most = picture.settings.clamp;
-    if 0.0 < most && exposes(picture.settings.aov) {
+    if 0.0 < most && Display::affects(picture.settings.aov) {
         messages.note(&format!(
             "samples are clamped to {most:?}; light above that is lost (biased)"
         ));

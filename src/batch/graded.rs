@@ -5,7 +5,7 @@ use std::path::Path;
 use super::reading::Over;
 use super::{Messages, Tracing};
 use image_file::Recorded;
-use render::{Job, PictureMetadata, Provenance, Region, denoises};
+use render::{Job, PictureMetadata, Provenance, Region, can_denoise};
 use scene::{Rendering, Scene, Size};
 
 /// A scene that is to be traced as a picture was.
@@ -77,7 +77,7 @@ impl<'w> Graded<'w> {
             rendering: self.rendering(),
             seed: self.said.seed.or(record.seed),
             aov,
-            denoise: record.denoise && denoises(aov),
+            denoise: record.denoise && can_denoise(aov),
             ..self.said.clone()
         }
     }

@@ -20,7 +20,7 @@ impl Machine {
         Self {
             processor: processor().unwrap_or_else(|| std::env::consts::ARCH.to_owned()),
             cores: thread::available_parallelism().map_or(1, NonZero::get),
-            vectors: render::vectors(),
+            vectors: render::simd_level_name(),
             memory: memory::installed().unwrap_or(0),
         }
     }

@@ -34,7 +34,7 @@ use render::RenderArguments;
 use shared::ReadingArguments;
 use show::ShowArguments;
 
-use ::render::{CAP, CAPS};
+use ::render::{CPU_LEVEL_VARIABLE, CPU_LEVELS};
 use batch::{Bench, Check, Compare, Convert, Explain, Merge, Render, Show, Verdict};
 use file::ReadError;
 use part::Unmerged;
@@ -106,20 +106,20 @@ pub struct Stop {
 /// the command.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, Stop> {
     let command = parse_arguments(arguments)?;
-    match check_cap(env::var_os(CAP).as_deref()) {
+    match check_cap(env::var_os(CPU_LEVEL_VARIABLE).as_deref()) {
         Some(reason) => Err(refusal(None, reason)),
         None => Ok(command),
     }
 }
 
-/// Why the value of [`CAP`] is refused, if it is.
+/// Why the value of [`CPU_LEVEL_VARIABLE`] is refused, if it is.
 fn check_cap(cap: Option<&OsStr>) -> Option<String> {
-    let is_known = |cap: &OsStr| cap.is_empty() || CAPS.iter().any(|known| cap == *known);
+    let is_known = |cap: &OsStr| cap.is_empty() || CPU_LEVELS.iter().any(|known| cap == *known);
     let unknown = cap.filter(|cap| !is_known(cap))?;
     Some(format!(
-        "{CAP}={}: expected {}",
+        "{CPU_LEVEL_VARIABLE}={}: expected {}",
         unknown.display(),
-        alternatives(CAPS)
+        alternatives(CPU_LEVELS)
     ))
 }
 

@@ -11,7 +11,7 @@ use super::choices::AovChoice;
 use super::rendering::RenderingArguments;
 use super::shared::{spp_range, threads_range, whole_number};
 use batch::{Means, ProgressStyle, Tracing};
-use render::{Aov, Region, denoises};
+use render::{Aov, Region, can_denoise};
 use scene::{Rendering, Size, Viewpoint};
 use text::parse_duration;
 
@@ -68,7 +68,9 @@ impl TracingArguments {
     /// With layers and, unless an AOV without noise is rendered, with noise reduced.
     pub(super) fn with(self, layers: Vec<Aov>, denoise: bool) -> Result<Tracing, String> {
         let tracing = self.into_tracing();
-        let noiseless = tracing.aov.filter(|aov| denoise && !denoises(Some(*aov)));
+        let noiseless = tracing
+            .aov
+            .filter(|aov| denoise && !can_denoise(Some(*aov)));
         if let Some(aov) = noiseless {
             return Err(format!(
                 "--denoise reduces the noise of light: not with --aov {}",

@@ -60,15 +60,18 @@ pub use engine::{
 };
 pub use geometry::Side;
 pub use integrators::Counts;
-pub use job::{Aov, Frames, Job, Limit, NO_OBJECT, NoRegion, Region, Settings, denoises};
+pub use job::{Aov, Frames, Job, Limit, NO_OBJECT, NoRegion, Region, Settings, can_denoise};
 pub use picture::{
     Advice, Colours, Display, Fault, Frame, HISTOGRAM_STOPS, Histogram, MOST_HALF_STOPS,
     Overexposure, PictureMetadata, Progress, Provenance, Query, SettingSearch, WireLine, Wireframe,
-    exposes, wireframe,
+    wireframe,
 };
 pub use sampling::Densities;
-pub use simd_level::{CAP, CAPS, vectors};
-pub use world::{SurfacePoint, axes, clearance, line_of, pixel_of, pixel_width, surface_under};
+pub use simd_level::{CPU_LEVEL_VARIABLE, CPU_LEVELS, simd_level_name};
+pub use world::{
+    SurfacePoint, camera_axes, distance_to_surface, pixel_width, project_line, project_point,
+    surface_under,
+};
 
 #[cfg(test)]
 mod tests;

@@ -6,16 +6,16 @@ use geometry::lanes::Level;
 
 /// The environment variable that caps the level, to measure and to compare levels on one machine. No
 /// pixel depends on it.
-pub const CAP: &str = "HALFLIGHT_CPU";
+pub const CPU_LEVEL_VARIABLE: &str = "HALFLIGHT_CPU";
 
-/// The values of [`CAP`], from the lowest level to the highest.
-pub const CAPS: [&str; 3] = ["sse2", "avx2", "avx512"];
+/// The values of [`CPU_LEVEL_VARIABLE`], from the lowest level to the highest.
+pub const CPU_LEVELS: [&str; 3] = ["sse2", "avx2", "avx512"];
 
-/// The best level of this machine that [`CAP`] permits; what is none of [`CAPS`], which the command
+/// The best level of this machine that [`CPU_LEVEL_VARIABLE`] permits; what is none of [`CPU_LEVELS`], which the command
 /// line refuses unless it is empty, caps nothing.
 pub(crate) fn level() -> Level {
     let best = Level::new();
-    match env::var(CAP) {
+    match env::var(CPU_LEVEL_VARIABLE) {
         Ok(cap) => capped(best, &cap),
         Err(_) => best,
     }
@@ -36,7 +36,7 @@ fn capped(best: Level, _: &str) -> Level {
 }
 
 /// The name of the level.
-pub fn vectors() -> &'static str {
+pub fn simd_level_name() -> &'static str {
     let level = level();
     #[cfg(target_arch = "x86_64")]
     return match level {

@@ -13,7 +13,7 @@ use super::terminal::{self, Budget, Choice, ColourDepth, Protocol, Reply, query,
 use assets::Assets;
 use file::state_folder::{self, Store};
 use memory::Available;
-use render::{CAP, CAPS, vectors};
+use render::{CPU_LEVEL_VARIABLE, CPU_LEVELS, simd_level_name};
 use text::{alternatives, counted, visible};
 
 /// The DEC private mode of synchronized output.
@@ -264,12 +264,17 @@ fn processor() -> String {
         ];
         let features =
             known.map(|(name, has)| format!("{name} {}", if has { "yes" } else { "no" }));
-        let cap = match std::env::var(CAP) {
-            Ok(cap) if CAPS.contains(&cap.as_str()) => format!(", capped by {CAP}"),
-            Ok(cap) => format!("; {CAP}={cap} is ignored: expected {}", alternatives(CAPS)),
+        let cap = match std::env::var(CPU_LEVEL_VARIABLE) {
+            Ok(cap) if CPU_LEVELS.contains(&cap.as_str()) => {
+                format!(", capped by {CPU_LEVEL_VARIABLE}")
+            }
+            Ok(cap) => format!(
+                "; {CPU_LEVEL_VARIABLE}={cap} is ignored: expected {}",
+                alternatives(CPU_LEVELS)
+            ),
             Err(_) => String::new(),
         };
-        let (features, used) = (features.join(", "), vectors());
+        let (features, used) = (features.join(", "), simd_level_name());
         format!("x86_64: {features}; tracing uses {used}{cap}")
     }
     #[cfg(not(target_arch = "x86_64"))]

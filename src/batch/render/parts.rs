@@ -255,7 +255,7 @@ impl Opened {
             self.aim(spp)?;
             return Ok(spp);
         }
-        let tracer = BlockTracer::new(job, self.means.threads, || self.signals.arrived())?;
+        let tracer = BlockTracer::new(job, self.means.threads, &|| self.signals.arrived())?;
         let Some(tracer) = tracer else {
             let none_begun = BTreeMap::new();
             return Err(self.stopped(self.tally(spp, &none_begun).done()));
@@ -307,7 +307,7 @@ impl Opened {
             scope.spawn(move || {
                 // The receiver is dropped only after a failure, which stops the tracing.
                 let hand_over = |block| drop(hand_over.send(block));
-                tracer.trace(todo, spp, INTERVAL, stopped, hand_over);
+                tracer.trace(todo, spp, INTERVAL, &stopped, hand_over);
             });
             let written = self.write(&handed_over, &mut tally);
             failed.store(written.is_err(), Ordering::Relaxed);

@@ -12,7 +12,10 @@ impl Case<'_> {
         let names = self.names;
         let light_node = |light: &u32| Names::light_node(*light);
         match verdict {
-            Verdict::NoLights { others } => self.no_lights(*others),
+            Verdict::NoLights { others: false } => {
+                self.no_lights("the scene has no light", "add a light")
+            }
+            Verdict::NoLights { others: true } => self.only_other_lights(),
             Verdict::SwitchedOff { lights, all } => {
                 let which = if *all && 1 < lights.len() {
                     "all lights are".to_owned()
@@ -206,18 +209,22 @@ impl Case<'_> {
         self.about(node, &[], sentence)
     }
 
-    fn no_lights(&self, others: bool) -> Sentence {
-        let (text, help) = match (self.explanation.integrator, others) {
-            (_, false) => ("the scene has no light", "add a light"),
-            (Integrator::Whitted, true) => (
+    /// Nothing in the scene is light to this integrator, but something is to the others.
+    fn only_other_lights(&self) -> Sentence {
+        let (text, help) = match self.explanation.integrator {
+            Integrator::Whitted => (
                 "the scene has no light, and only path tracing is lit by emission and environment",
                 "trace paths, or add a light",
             ),
-            (Integrator::Path | Integrator::Photon, true) => (
+            Integrator::Path | Integrator::Photon => (
                 "the scene has only ambient light, which path tracing leaves out",
                 "use `integrator whitted`, or add a light",
             ),
         };
+        self.no_lights(text, help)
+    }
+
+    fn no_lights(&self, text: &str, help: &str) -> Sentence {
         let mut sentence = self.sentence("no-lights", text);
         sentence.help = Some(help.to_owned());
         sentence

@@ -7,7 +7,7 @@ use crate::triangle::{Roughly, Sheared, Shears};
 use crate::{Hit, Hits, Rays};
 
 /// Up to this many lines of a packet are tested one by one, each against all triangles of a run.
-const FEW: u32 = 2;
+const MOST_SINGLE_LINES: u32 = 2;
 
 /// The lines of eight rays in the unit space of a mesh.
 #[derive(Clone, Copy, Debug)]
@@ -101,7 +101,7 @@ impl<'m, S: Simd> MeshLines<'m, S> {
     pub fn meet_run(&self, run: &TriangleRun<'_>, lanes: u32, nearest: &mut NearestOnLines<S>) {
         let simd = nearest.t.simd;
         match &self.together {
-            Some((lines, roughly)) if FEW < lanes.count_ones() => {
+            Some((lines, roughly)) if MOST_SINGLE_LINES < lanes.count_ones() => {
                 let zero = Eight::splat(simd, 0.0);
                 for (at, &triangle) in run.triangles.iter().enumerate() {
                     let lanes = run.may_cross_at(roughly, at) & lanes;

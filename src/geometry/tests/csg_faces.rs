@@ -107,7 +107,7 @@ fn made(operation: Operation, pair: &Pair, turn: &[DVec3; 3], at: DVec3) -> Shap
 
 #[test]
 fn coincident_faces_show_no_speckle() {
-    const SIDE: u32 = 100;
+    const RAYS_ACROSS: u32 = 100;
     let mut random = Random(41);
     for (name, operation, pair, clean_operation, clean_pair) in PAIRS {
         for view in 0..12 {
@@ -126,10 +126,11 @@ fn coincident_faces_show_no_speckle() {
             let centre = at + 0.5 * x + 0.5 * y;
             let eye = centre + (top + height) * z + 2.0 * x - 1.5 * y;
             let mut different = Vec::new();
-            for i in 0..SIDE * SIDE {
-                let mut fraction =
-                    |i: u32| (f64::from(i) + random.between(0.0, 1.0)) / f64::from(SIDE) - 0.5;
-                let (u, v) = (fraction(i % SIDE), fraction(i / SIDE));
+            for i in 0..RAYS_ACROSS * RAYS_ACROSS {
+                let mut fraction = |i: u32| {
+                    (f64::from(i) + random.between(0.0, 1.0)) / f64::from(RAYS_ACROSS) - 0.5
+                };
+                let (u, v) = (fraction(i % RAYS_ACROSS), fraction(i / RAYS_ACROSS));
                 let ray = ray(eye, centre + 1.2 * u * x + 1.2 * v * y + top * z);
                 let hits = [&shape, &clean].map(|shape| {
                     let hit = shape.hit(&ray, f64::INFINITY)?;

@@ -247,7 +247,7 @@ pub(super) fn exact_hit(coefficients: [f64; 10], ray: &Ray) -> bool {
 
 #[test]
 fn quadrics_hit_as_in_twice_the_precision() {
-    const SIDE: u32 = 256;
+    const RAYS_ACROSS: u32 = 256;
     let mut random = Random(21);
     let needle = 1e6;
     let kinds = [
@@ -274,9 +274,9 @@ fn quadrics_hit_as_in_twice_the_precision() {
             let [right, back, up] = axes;
             let width = |i: usize| 1.3 / s[i].abs().sqrt().max(1e-3);
             let eye = centre + distance * back;
-            for i in 0..SIDE * SIDE {
-                let fraction = |i: u32| (2.0 * f64::from(i) + 1.0) / f64::from(SIDE) - 1.0;
-                let (x, y) = (fraction(i % SIDE), fraction(i / SIDE));
+            for i in 0..RAYS_ACROSS * RAYS_ACROSS {
+                let fraction = |i: u32| (2.0 * f64::from(i) + 1.0) / f64::from(RAYS_ACROSS) - 1.0;
+                let (x, y) = (fraction(i % RAYS_ACROSS), fraction(i / RAYS_ACROSS));
                 let target = centre + x * width(0) * right + y * width(2).min(3.0) * up;
                 let ray = ray(eye, target);
                 let hit = !spans(&shape, &ray).is_empty();

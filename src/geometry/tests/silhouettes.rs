@@ -7,13 +7,13 @@ use super::random::Random;
 use super::{Frame, Kind, Ray, only_span, ray, unit};
 use crate::{Rays, Sphere, may_meet, ulp};
 
-const SIDE: u32 = 256;
+const RAYS_ACROSS: u32 = 256;
 
 /// A grid of rays from `eye` through a window around `target` with the given half edges.
 fn window(eye: DVec3, target: DVec3, right: DVec3, up: DVec3) -> impl Iterator<Item = Ray> {
-    let fraction = |i: u32| (2.0 * f64::from(i) + 1.0) / f64::from(SIDE) - 1.0;
-    (0..SIDE * SIDE).map(move |i| {
-        let (x, y) = (fraction(i % SIDE), fraction(i / SIDE));
+    let fraction = |i: u32| (2.0 * f64::from(i) + 1.0) / f64::from(RAYS_ACROSS) - 1.0;
+    (0..RAYS_ACROSS * RAYS_ACROSS).map(move |i| {
+        let (x, y) = (fraction(i % RAYS_ACROSS), fraction(i / RAYS_ACROSS));
         ray(eye, target + x * right + y * up)
     })
 }

@@ -26,13 +26,13 @@ pub struct BlockTracer {
 }
 
 impl BlockTracer {
-    /// Prepares to trace a job, whose limit and frames do not matter. `None` once `stopped` returns
+    /// Prepares to trace a job, whose limit and frames do not matter. `None` once `cancelled` returns
     /// true. Refuses a scene whose acceleration structures do not fit into memory; how many blocks are
     /// held at once is up to the caller.
     pub fn new(
         job: Job,
         threads: usize,
-        stopped: impl Fn() -> bool + Sync,
+        cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Self>, Refusal> {
         let pool = pool(Threads::Exactly(threads)).map_err(|error| Refusal::Threads {
             count: threads,
@@ -43,9 +43,9 @@ impl BlockTracer {
         let build = || {
             let settings = WorldSettings::of(&job.settings);
             let scene = Arc::clone(&job.scene);
-            let world = World::build(scene, &job.images, settings, None, &stopped)?;
+            let world = World::build(scene, &job.images, settings, None, cancelled)?;
             let photons = match PhotonRules::of(&job.settings) {
-                Some(rules) => Some(Photons::build(&world, rules, None, &stopped)?),
+                Some(rules) => Some(Photons::build(&world, rules, None, cancelled)?),
                 None => None,
             };
             Some((world, photons))
@@ -65,28 +65,26 @@ impl BlockTracer {
     }
 
     /// Continues blocks to `spp` samples of each pixel, and returns once all are handed over: each
-    /// when it is done, and whenever it took another `interval`. Once `stopped` returns true, those
+    /// when it is done, and whenever it took another `interval`. Once `cancelled` returns true, those
     /// begun are handed over soon, as they are.
     pub fn trace(
         &self,
         blocks: impl Iterator<Item = Block> + Send,
         spp: u32,
         interval: Duration,
-        stopped: impl Fn() -> bool + Sync,
+        cancelled: &(dyn Fn() -> bool + Sync),
         hand_over: impl Fn(Block) + Sync,
     ) {
         if let Some(photons) = &self.photons {
             let blocks = blocks.collect();
             let trace =
-                || self.trace_together(photons, blocks, spp, interval, &stopped, &hand_over);
+                || self.trace_together(photons, blocks, spp, interval, cancelled, &hand_over);
             return self.pool.install(trace);
         }
-        // As in previews, so that they share the compiled code.
-        let cancelled: &(dyn Fn() -> bool + Sync) = &stopped;
         let shot = FrameContext::new(&self.world, &self.job.camera, self.job.settings);
         let new_sampler = || pixel_sampler(&shot, cancelled);
         let trace = |sampler: &mut PixelSampler<'_, _>, mut block: Block| {
-            if !stopped() {
+            if !cancelled() {
                 let keep = |block: &Block| hand_over(block.clone());
                 block.trace(spp, &shot, sampler, (interval, keep));
                 hand_over(block);
@@ -103,14 +101,14 @@ impl BlockTracer {
         mut blocks: Vec<Block>,
         spp: u32,
         interval: Duration,
-        stopped: &(dyn Fn() -> bool + Sync),
+        cancelled: &(dyn Fn() -> bool + Sync),
         hand_over: &(impl Fn(Block) + Sync),
     ) {
         let least = |blocks: &[Block]| blocks.iter().map(|block| block.samples).min();
         let mut handed_over = Instant::now();
-        while let Some(samples) = least(&blocks).filter(|&samples| samples < spp && !stopped()) {
+        while let Some(samples) = least(&blocks).filter(|&samples| samples < spp && !cancelled()) {
             let goal = spp.min(samples.saturating_add(MAPS));
-            let Some(maps) = photons.maps(&self.world, samples..goal, stopped) else {
+            let Some(maps) = photons.maps(&self.world, samples..goal, cancelled) else {
                 break;
             };
             let shot = FrameContext::new(&self.world, &self.job.camera, self.job.settings);
@@ -119,7 +117,7 @@ impl BlockTracer {
                 block.trace(goal, &shot, sampler, (Duration::MAX, |_: &Block| {}));
             };
             let lacking = blocks.par_iter_mut().filter(|block| block.samples < goal);
-            lacking.for_each_init(|| pixel_sampler(&shot, stopped), trace);
+            lacking.for_each_init(|| pixel_sampler(&shot, cancelled), trace);
             if interval <= handed_over.elapsed() && goal < spp {
                 blocks.iter().cloned().for_each(hand_over);
                 handed_over = Instant::now();
@@ -130,7 +128,7 @@ impl BlockTracer {
     }
 }
 
-/// What a thread traces blocks with.
+/// What a thread traces blocks with. Its type is that of previews, so that they share the compiled code.
 fn pixel_sampler<'w>(
     shot: &FrameContext<'w>,
     cancelled: &'w (dyn Fn() -> bool + Sync),

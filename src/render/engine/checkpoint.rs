@@ -200,7 +200,7 @@ impl Assembled {
         let size = job.settings.traced().size();
         let shape = TileShape::of(size);
         let count = shape.count(size);
-        let remembers = Remembers::of(&job.settings, job.frames, job.denoise);
+        let remembers = Remembers::of(job);
         let mut tiles = Vec::new();
         tiles.try_reserve_exact(count)?;
         tiles.extend((0..count).map(|number| Tile::new(number, size, shape, remembers)));
@@ -300,8 +300,7 @@ fn stored(block: &Block, at: usize, reached: &Reached, job: &Job) -> io::Result<
     }
     let is_light = job.settings.surface().is_none();
     let has_error = reached.level < 2 || !is_light || block.variances[at] != UNKNOWN;
-    let needs_errors =
-        Remembers::of(&job.settings, job.frames, job.denoise) == Remembers::Histories;
+    let needs_errors = Remembers::of(job) == Remembers::Histories;
     let needs_rays = job.settings.aov == Some(Aov::Cost);
     let is_known =
         (has_error || !needs_errors) && (history != PixelHistory::UNKNOWN || !needs_rays);

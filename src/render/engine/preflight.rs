@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::film::Film;
 use crate::integrators::{PhotonRules, Photons};
 use crate::job::{Job, NoRegion};
-use crate::world::{FEW, World, WorldSettings, instances};
+use crate::world::{MOST_WITHOUT_TREE, World, WorldSettings, instances};
 use memory::{Need, OutOfMemory};
 use scene::{Rgb, Scene, Size};
 
@@ -99,7 +99,7 @@ pub fn check_memory(job: &Job, bytes: u64) -> Result<(), Refusal> {
 fn film(job: &Job) -> u64 {
     let size = job.settings.traced().size();
     let pixels = (size.pixels() as u64).saturating_mul(ENCODED as u64);
-    Film::bytes(&job.settings, job.frames, job.denoise).saturating_add(pixels)
+    Film::bytes(job).saturating_add(pixels)
 }
 
 /// Bytes of the photon maps, which are none without photons; `kept` are the photons of each, if known.
@@ -140,17 +140,21 @@ fn check(job: &Job, bytes: u64, world: u64) -> Result<(), Refusal> {
 /// in a few shapes at most.
 fn is_edit_of(before: &Scene, scene: &Scene) -> bool {
     /// Beyond this many changes a tree is rebuilt.
-    const MANY: usize = 32;
+    const MOST_CHANGED: usize = 32;
     let count = scene.objects.len();
     let sample = (0..count).step_by(1 + count / COMPARED);
     let is_other = |&at: &usize| before.objects[at].shape != scene.objects[at].shape;
-    count == before.objects.len() && sample.filter(is_other).nth(MANY).is_none()
+    count == before.objects.len() && sample.filter(is_other).nth(MOST_CHANGED).is_none()
 }
 
 /// Bytes of a scene's acceleration structures.
 fn world(scene: &Scene) -> u64 {
     let objects = scene.objects.len();
-    let own = if objects <= FEW { 0 } else { objects };
+    let own = if objects <= MOST_WITHOUT_TREE {
+        0
+    } else {
+        objects
+    };
     let mut meshes: Vec<_> = instances(&scene.objects)
         .into_iter()
         .map(|(_, instance)| instance.mesh())

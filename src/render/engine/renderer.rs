@@ -83,7 +83,7 @@ impl Renderer {
         let region = job.settings.traced().within(job.settings.size)?;
         preflight::fits(&job, self.accepted.upgrade().as_ref())?;
         let scene = Arc::downgrade(&job.scene);
-        let film = Film::new(&job.settings, job.frames, job.denoise);
+        let film = Film::new(&job);
         let film = film.map_err(|NoMemory { bytes }| Refusal::Memory {
             size: region.size(),
             bytes,

@@ -307,8 +307,8 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         let (token, published) = (self.token, self.published);
         let unwanted = || token.unwanted(published);
         let raster = match self.job.frames {
-            _ if self.complete => self.film.finish(unwanted),
-            Frames::Live => self.film.develop(unwanted),
+            _ if self.complete => self.film.finish(&unwanted),
+            Frames::Live => self.film.develop(&unwanted),
             Frames::Last | Frames::LastWithValues => Some(Raster::default()),
         };
         let Some(mut raster) = raster else {
@@ -377,7 +377,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         if variances.iter().all(|&variance| variance == 0.0) {
             return Some(raster.values.clone());
         }
-        if !self.guides.extend(self.whole_samples, shot, unwanted) {
+        if !self.guides.extend(self.whole_samples, shot, &unwanted) {
             return None;
         }
         let noisy = Noisy {

@@ -173,7 +173,7 @@ fn trace<W: Fn() + Sync>(
             if let Some((_, unfit)) = other {
                 unfit.free_later();
             }
-            match recalled.and_then(|recalled| await_checkpoint(&recalled, quit)) {
+            match recalled.and_then(|recalled| await_checkpoint(&recalled, &quit)) {
                 Some(checkpoint) if film.can_take_over(&checkpoint) => {
                     film.take_over(checkpoint, Dependencies::NOTHING)
                 }
@@ -208,7 +208,7 @@ fn trace<W: Fn() + Sync>(
 /// job does not end the wait, as it may continue the picture.
 fn await_checkpoint(
     recalled: &Receiver<Checkpoint>,
-    quit: impl Fn() -> bool,
+    quit: &(dyn Fn() -> bool + Sync),
 ) -> Option<Checkpoint> {
     while !quit() {
         match recalled.recv_timeout(POLL) {

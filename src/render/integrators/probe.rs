@@ -109,6 +109,15 @@ impl SampleResult {
     };
 }
 
+/// Whether paths may go on from the surfaces of a bounce.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum BounceStage {
+    /// They may.
+    Inner,
+    /// They end there: no BSDF sample can hit a light any more.
+    Last,
+}
+
 impl<'w, C> Probe<'w, C> {
     /// Creates a probe that follows rays up to bounce `depth`.
     pub(crate) fn new(world: &'w World, depth: u32, cancelled: C) -> Self {
@@ -128,10 +137,14 @@ impl<'w, C> Probe<'w, C> {
         Self { photon_map, ..self }
     }
 
-    /// Whether a path at a bounce is not at its last.
+    /// Whether a bounce of a path is its last.
     #[inline]
-    pub(crate) fn may_go_on(&self, bounce: u32) -> bool {
-        bounce < self.depth
+    pub(crate) fn stage(&self, bounce: u32) -> BounceStage {
+        if bounce < self.depth {
+            BounceStage::Inner
+        } else {
+            BounceStage::Last
+        }
     }
 
     /// Whether photons carry what arrives from a light via mirrors and boundaries.

@@ -65,13 +65,13 @@ pub struct Job {
 }
 
 /// Whether the noise of pictures of this can be reduced.
-pub fn denoises(aov: Option<Aov>) -> bool {
+pub fn can_denoise(aov: Option<Aov>) -> bool {
     aov.is_none_or(Aov::is_share)
 }
 
 impl Job {
     /// Whether its pixels are denoised: AOVs of surfaces have no noise to tell from detail.
     pub(crate) fn denoises(&self) -> bool {
-        self.denoise && denoises(self.settings.aov)
+        self.denoise && can_denoise(self.settings.aov)
     }
 }

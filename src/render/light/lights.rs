@@ -380,7 +380,7 @@ impl Spheres<Row> {
 
 /// Up to this number of lights, a ray is tested against each instead of descending the tree, which
 /// takes a tenth of the time of `lamp.xml` with its single light.
-const FEW: usize = 4;
+const MOST_WITHOUT_TREE: usize = 4;
 
 /// All lights of a scene with a size that path tracing sees.
 #[derive(Clone, Debug)]
@@ -448,7 +448,7 @@ impl SphereLights {
     /// Visits the lights that the ray may hit; `visit` returns the new limit, negative to stop.
     #[inline(always)]
     fn visit(&self, ray: &Ray, limit: f64, mut visit: impl FnMut(u32) -> f64) {
-        if self.all.len() <= FEW {
+        if self.all.len() <= MOST_WITHOUT_TREE {
             for number in 0..self.all.len() as u32 {
                 if visit(number) < 0.0 {
                     break;

@@ -15,7 +15,7 @@ use crate::material::{LUMINANCE, Textures, environment_place};
 use scene::{Scene, Size, Tinted};
 
 /// Most cells of a grid along an edge; larger images are averaged.
-const MOST: u32 = 1024;
+const MOST_CELLS_ACROSS: u32 = 1024;
 
 /// Cells along an edge for textures that are not one image that fills the square.
 const COARSE: u32 = 256;
@@ -53,7 +53,7 @@ impl Sky {
         scene: &Scene,
         textures: &Textures,
         known: Option<(&Arc<Self>, &Textures)>,
-        cancelled: &(impl Fn() -> bool + Sync),
+        cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<Arc<Self>> {
         let environment = scene.setting.environment;
         if let Some((sky, before)) = known
@@ -110,14 +110,14 @@ impl Grid {
     fn build(
         environment: Tinted,
         textures: &Textures,
-        cancelled: &(impl Fn() -> bool + Sync),
+        cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<Option<Self>> {
         let filling = textures.filling_image(environment);
-        let fills = filling.is_some_and(|size| size.width.max(size.height) <= MOST);
+        let fills = filling.is_some_and(|size| size.width.max(size.height) <= MOST_CELLS_ACROSS);
         let size = match filling {
             Some(size) => Size {
-                width: size.width.min(MOST),
-                height: size.height.min(MOST),
+                width: size.width.min(MOST_CELLS_ACROSS),
+                height: size.height.min(MOST_CELLS_ACROSS),
             },
             None => Size {
                 width: COARSE,

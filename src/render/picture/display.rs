@@ -49,6 +49,14 @@ impl Display {
         *self == Self::default()
     }
 
+    /// Whether a display changes pictures of this; `None` is light.
+    pub fn affects(aov: Option<Aov>) -> bool {
+        match aov {
+            None | Some(Aov::Albedo) => true,
+            Some(aov) => aov.is_share(),
+        }
+    }
+
     /// The exposure in stops.
     pub fn stops(&self) -> f64 {
         f64::from(self.half_stops) / 2.0
@@ -58,7 +66,7 @@ impl Display {
     /// neutral, or the frame shows something other than light or albedo.
     pub fn apply(&self, frame: &Frame) -> Option<Vec<[u8; 3]>> {
         let settings = frame.settings().filter(|_| !self.is_neutral())?;
-        if !exposes(settings.aov) || frame.values.len() != frame.pixels.len() {
+        if !Self::affects(settings.aov) || frame.values.len() != frame.pixels.len() {
             return None;
         }
         let is_denoised = self.denoised && frame.denoised.len() == frame.pixels.len();
@@ -84,14 +92,6 @@ impl Display {
             }
         });
         Some(pixels.collect())
-    }
-}
-
-/// Whether the display changes pictures of this.
-pub fn exposes(aov: Option<Aov>) -> bool {
-    match aov {
-        None | Some(Aov::Albedo) => true,
-        Some(aov) => aov.is_share(),
     }
 }
 

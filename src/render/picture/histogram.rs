@@ -37,9 +37,9 @@ impl Histogram {
     /// Counts the linear colours of pixels after an exposure in stops.
     pub fn of(values: &[[f32; 3]], stops: f64) -> Self {
         /// Pixels counted by a thread at once.
-        const MANY: usize = 1 << 14;
+        const CHUNK: usize = 1 << 14;
         let scale = libm::exp2(stops);
-        let counts = values.par_chunks(MANY).map(|values| {
+        let counts = values.par_chunks(CHUNK).map(|values| {
             let mut counts = Counts::NONE;
             for value in values {
                 counts.add(scale * Rgb::from(value.map(f64::from)));

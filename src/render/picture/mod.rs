@@ -17,7 +17,7 @@ mod wireframe;
 
 pub(crate) use denoise::{Guides, Noisy, UNKNOWN};
 pub(crate) use display::luminance;
-pub use display::{Colours, Display, MOST_HALF_STOPS, exposes};
+pub use display::{Colours, Display, MOST_HALF_STOPS};
 pub use frame::{Frame, Progress};
 pub use histogram::{HISTOGRAM_STOPS, Histogram};
 pub use metadata::PictureMetadata;

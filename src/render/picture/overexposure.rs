@@ -28,8 +28,8 @@ impl Overexposure {
     /// That of values, as linear colours after the exposure.
     pub(crate) fn of_all<T: Sync>(values: &[T], linear: impl Fn(&T) -> Rgb + Sync) -> Self {
         /// Pixels counted by a thread at once.
-        const MANY: usize = 1 << 14;
-        let parts = values.par_chunks(MANY);
+        const CHUNK: usize = 1 << 14;
+        let parts = values.par_chunks(CHUNK);
         let parts = parts.map(|values| Excess::of(values.iter().map(&linear)));
         Excess::sum(parts).over(values.len())
     }

@@ -15,10 +15,10 @@ use geometry::Shape;
 use scene::{EXPOSURES, FalloffRule, Filter, Integrator, Material, Rendering, Rgb, Scene, Size};
 
 /// The longer side of a small picture, in pixels.
-const SIDE: u32 = 64;
+const TRIAL_SIDE: u32 = 64;
 
 /// Its samples per pixel.
-const SAMPLES: u32 = 16;
+const TRIAL_SAMPLES: u32 = 16;
 
 /// The longer side, in pixels, of the picture that tells whether one is black, the first that is not too
 /// much work: small ones may miss what is bright in it.
@@ -173,9 +173,9 @@ impl SettingSearch {
     /// The settings of the picture to trace next, in [live](crate::Frames::Live) frames.
     pub fn settings(&self) -> Settings {
         let (side, spp) = match self.next {
-            Trial::Glance => (SIDE, 1),
+            Trial::Glance => (TRIAL_SIDE, 1),
             Trial::Whole(side) => (side, 1),
-            Trial::Base | Trial::With(_) => (SIDE, SAMPLES),
+            Trial::Base | Trial::With(_) => (TRIAL_SIDE, TRIAL_SAMPLES),
         };
         let plain = Settings {
             size: within(self.settings.size, side),

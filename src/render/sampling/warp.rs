@@ -87,13 +87,13 @@ mod tests {
 
     use super::*;
 
-    const SIDE: usize = 64;
+    const GRID: usize = 64;
 
     /// The mean of a function over the midpoints of a fine grid.
     fn mean(of: impl Fn([f64; 2]) -> f64) -> f64 {
-        let middle = |i: usize| (i as f64 + 0.5) / SIDE as f64;
-        let rows = (0..SIDE).flat_map(|i| (0..SIDE).map(move |j| [middle(i), middle(j)]));
-        rows.map(of).sum::<f64>() / (SIDE * SIDE) as f64
+        let middle = |i: usize| (i as f64 + 0.5) / GRID as f64;
+        let rows = (0..GRID).flat_map(|i| (0..GRID).map(move |j| [middle(i), middle(j)]));
+        rows.map(of).sum::<f64>() / (GRID * GRID) as f64
     }
 
     fn axes() -> impl Iterator<Item = DVec3> {

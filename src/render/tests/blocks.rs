@@ -14,7 +14,7 @@ const SIZE: (u32, u32) = (75, 40);
 
 /// All blocks of a job, continued from none.
 fn traced(job: &Job, spp: u32, polls: Option<u32>) -> Vec<Block> {
-    let tracer = BlockTracer::new(job.clone(), 2, || false);
+    let tracer = BlockTracer::new(job.clone(), 2, &|| false);
     let tracer = tracer.expect("it is traced").expect("it is not stopped");
     let blocks = tracer.blocks();
     let none = (0..blocks.count()).map(|number| Block::new(number, blocks));
@@ -42,7 +42,7 @@ pub(super) fn continued(
             left.clone().into_iter().rev(),
             spp,
             hour,
-            stopped,
+            &stopped,
             hand_over,
         );
         let handed_over = handed_over.into_inner().expect("no panics");

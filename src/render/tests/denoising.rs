@@ -90,12 +90,17 @@ fn switching_traces_no_ray() {
 /// A large trace is not traced again for noise reduction, which it has no memory for.
 #[test]
 fn large_live_pictures_are_continued_as_they_are() {
-    let remembers = |frames, denoise| Remembers::of(&settings(4096, 2048, 1), frames, denoise);
+    let of_size = |width, height, frames, denoise| Job {
+        frames,
+        denoise,
+        ..job(&still(), settings(width, height, 1))
+    };
+    let remembers = |frames, denoise| Remembers::of(&of_size(4096, 2048, frames, denoise));
     assert_eq!(remembers(Frames::Live, true), Remembers::Pixels);
     assert_eq!(remembers(Frames::Last, false), Remembers::Pixels);
     assert_eq!(remembers(Frames::Last, true), Remembers::Histories);
     let bytes =
-        |width, height, denoise| Film::bytes(&settings(width, height, 1), Frames::Last, denoise);
+        |width, height, denoise| Film::bytes(&of_size(width, height, Frames::Last, denoise));
     assert!(bytes(800, 600, true) < bytes(800, 600, false) + 800 * 600 * 200);
     // Rows have room around them.
     let tall = bytes(1, 1 << 20, false) + (1 << 20) * 1500;

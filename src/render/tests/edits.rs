@@ -34,7 +34,7 @@ pub(super) struct Easel {
 impl Easel {
     pub(super) fn new(job: Job) -> Self {
         let world = built(&job, None);
-        let film = Film::new(&job.settings, job.frames, job.denoise);
+        let film = Film::new(&job);
         Self {
             job,
             world: world.expect("nothing cancels"),
@@ -47,7 +47,7 @@ impl Easel {
     fn turn_to(&mut self, job: Job) {
         let world = built(&job, Some(&self.world)).expect("nothing cancels");
         let changed = edit_difference((&self.job, &self.world), (&job, &world));
-        let film = Film::new(&job.settings, job.frames, job.denoise).expect("memory is there");
+        let film = Film::new(&job).expect("memory is there");
         let old = std::mem::replace(&mut self.film, film).into_checkpoint(Duration::ZERO);
         if Arc::ptr_eq(&self.world.emitters, &world.emitters) || !self.is_by_path() {
             self.film

@@ -291,7 +291,7 @@ fn a_tracer_of_blocks_continues_what_a_renderer_left() {
         let (mut whole, woken) = renderer(2);
         let generation = restart(&mut whole, last.clone());
         let alone = finish(&whole, &woken, generation);
-        let tracer = BlockTracer::new(last, 2, || false);
+        let tracer = BlockTracer::new(last, 2, &|| false);
         let tracer = tracer.expect("it is traced").expect("it is not stopped");
         let blocks = tracer.blocks();
         let mut easel = Easel::new(job.clone());
@@ -326,7 +326,7 @@ fn a_tracer_of_blocks_continues_what_a_renderer_left() {
 fn a_renderer_continues_what_a_tracer_of_blocks_left() {
     for job in exchanged() {
         let alone = trace(&job.scene, job.settings, 2);
-        let tracer = BlockTracer::new(job.clone(), 2, || false);
+        let tracer = BlockTracer::new(job.clone(), 2, &|| false);
         let tracer = tracer.expect("it is traced").expect("it is not stopped");
         let blocks = tracer.blocks();
         let none = || (0..blocks.count()).map(|number| Block::new(number, blocks));
@@ -354,7 +354,7 @@ fn the_cost_of_pixels_is_traced_where_it_is_not_known() {
         aov: Some(Aov::Cost),
         ..light.settings
     };
-    let tracer = BlockTracer::new(light.clone(), 2, || false);
+    let tracer = BlockTracer::new(light.clone(), 2, &|| false);
     let tracer = tracer.expect("it is traced").expect("it is not stopped");
     let blocks = tracer.blocks();
     let all = (0..blocks.count()).map(|number| Block::new(number, blocks));

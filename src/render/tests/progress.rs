@@ -1,6 +1,7 @@
 //! Progress toward a finished picture: grids, passes, threads, cancellation.
 
 use std::cell::Cell;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
 use crate::Refusal;
@@ -218,7 +219,7 @@ fn tiles_waste_few_pixels() {
         (9, 1 << 18),
     ] {
         let size = Size { width, height };
-        let film = Film::new(&settings(size.width, size.height, 1), Frames::Live, false)
+        let film = Film::new(&job(&still(), settings(size.width, size.height, 1)))
             .expect("memory that is not touched is there");
         let held = 256 * film.tiles();
         assert!(held < 2 * size.pixels() + 256, "{width}x{height}: {held}");
@@ -316,20 +317,17 @@ fn a_film_touches_memory_while_tracing_and_developing_can_be_cancelled() {
     let world = world(Scene::clone(&still()));
     let traced = settings(size.width, size.height, 1);
     let shot = FrameContext::new(&world, &world.scene.camera, traced);
-    let mut film = Film::new(&settings(size.width, size.height, 1), Frames::Live, false)
-        .expect("memory is there");
+    let mut film =
+        Film::new(&job(&still(), settings(size.width, size.height, 1))).expect("memory is there");
     assert_eq!((film.tiles(), film.begun()), (125 * 63, 0));
     film.advance(0..7, (&Step::Grid(8), 0..1), &shot, &|| false);
     assert_eq!(film.begun(), 7);
     film.advance(7..film.tiles(), (&Step::Grid(8), 0..1), &shot, &|| true);
-    let asked = Cell::new(0);
-    let stop_at_the_third = || {
-        asked.set(asked.get() + 1);
-        asked.get() == 3
-    };
-    assert!(film.develop(stop_at_the_third).is_none());
-    assert_eq!(asked.get(), 3);
-    let raster = film.develop(|| false).expect("nothing cancels");
+    let asked = AtomicUsize::new(0);
+    let stop_at_the_third = || asked.fetch_add(1, Ordering::Relaxed) == 2;
+    assert!(film.develop(&stop_at_the_third).is_none());
+    assert_eq!(asked.into_inner(), 3);
+    let raster = film.develop(&|| false).expect("nothing cancels");
     assert_eq!(raster.pixels.len(), size.pixels());
 }
 

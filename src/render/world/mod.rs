@@ -17,7 +17,10 @@ mod surfaces;
 pub(crate) use dependencies::Dependencies;
 pub(crate) use intersect::{Crossed, Nearest, NearestHits, Occlusion};
 pub(crate) use nearby::Nearby;
-pub use picking::{SurfacePoint, axes, clearance, line_of, pixel_of, pixel_width, surface_under};
+pub use picking::{
+    SurfacePoint, camera_axes, distance_to_surface, pixel_width, project_line, project_point,
+    surface_under,
+};
 pub(crate) use projection::Projection;
 #[cfg(test)]
 pub(crate) use structures::Search;
@@ -45,17 +48,18 @@ use scene::{FalloffRule, GlossRule, Images, Integrator, Light, Object, Objects, 
 /// Up to this many objects are intersected without a tree. Measured with single rays: with two
 /// solids, no tree is 1.5 times as fast; with six to eleven, a tree is 1.2 to 1.7 times as fast. With
 /// packets of eight and eleven solids, a tree is 1.1 times as fast.
-pub(super) const FEW: usize = 4;
+pub(super) const MOST_WITHOUT_TREE: usize = 4;
 
 /// The same for paths, whose packets spread after the first bounce: without a tree, eight objects take
 /// 8 % less time and twelve 6 % less. More were not measured.
-pub(super) const FEW_FOR_PATHS: usize = 16;
+pub(super) const MOST_WITHOUT_TREE_FOR_PATHS: usize = 16;
 
 /// Cancellation is polled once in this many objects.
 const POLLED: usize = 1 << 12;
 
 /// The order of objects without a tree.
-const FILE_ORDER: [u32; FEW_FOR_PATHS] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+const FILE_ORDER: [u32; MOST_WITHOUT_TREE_FOR_PATHS] =
+    [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 /// The runs in which objects without a tree are visited.
 pub(super) fn runs_in_file_order(count: usize) -> impl Iterator<Item = Range<usize>> {
@@ -64,10 +68,10 @@ pub(super) fn runs_in_file_order(count: usize) -> impl Iterator<Item = Range<usi
 }
 
 /// Up to how many objects are intersected without a tree.
-fn few(integrator: Integrator) -> usize {
+fn most_without_tree(integrator: Integrator) -> usize {
     match integrator {
-        Integrator::Path | Integrator::Photon => FEW_FOR_PATHS,
-        Integrator::Whitted => FEW,
+        Integrator::Path | Integrator::Photon => MOST_WITHOUT_TREE_FOR_PATHS,
+        Integrator::Whitted => MOST_WITHOUT_TREE,
     }
 }
 
@@ -83,7 +87,7 @@ fn sampled(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<Sampled> {
     let sky = previous.map(|world| (&world.sky, &world.textures));
-    let sky = Sky::build(scene, textures, sky, &cancelled)?;
+    let sky = Sky::build(scene, textures, sky, cancelled)?;
     let known = known.map(|(world, changed)| PreviousEmitters {
         emitters: &world.emitters,
         textures: &world.textures,
@@ -91,7 +95,7 @@ fn sampled(
     });
     let emitters = Emitters::build(scene, textures, known, cancelled)?;
     let known = previous.map(|world| &world.many_lights);
-    let many_lights = ManyLights::build(lights, known, &cancelled)?;
+    let many_lights = ManyLights::build(lights, known, cancelled)?;
     Some((many_lights, emitters, sky))
 }
 
@@ -183,7 +187,7 @@ impl World {
         let samples_lights = has_emitters
             || !many_lights.is_empty()
             || lights.iter().any(|light| light_sphere(light).is_some());
-        let needs_tree = few(integrator) < scene.objects.len();
+        let needs_tree = most_without_tree(integrator) < scene.objects.len();
         let is_known = |previous: &&Self| {
             changed.as_deref() == Some(&[]) && previous.tree.is_some() == needs_tree
         };
@@ -347,12 +351,12 @@ fn replaced(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<(Range<u32>, u32)> {
     /// The maximum number of objects removed or inserted.
-    const MANY: usize = 16;
+    const MOST_REPLACED: usize = 16;
     let (removed, inserted) = (
         before.len().saturating_sub(after.len()),
         after.len().saturating_sub(before.len()),
     );
-    if removed + inserted == 0 || MANY < removed + inserted {
+    if removed + inserted == 0 || MOST_REPLACED < removed + inserted {
         return None;
     }
     let compared = Cell::new(0);
@@ -389,7 +393,7 @@ fn changed_shapes(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<Vec<u32>> {
     /// Beyond this many changes a tree is rebuilt.
-    const MANY: usize = 32;
+    const MOST_CHANGED: usize = 32;
     if a.len() != b.len() {
         return None;
     }
@@ -398,7 +402,7 @@ fn changed_shapes(
     let is_other = differs_or_cancelled(&compared, cancelled);
     for number in a.differences(b, is_other) {
         changed.push(number as u32);
-        if MANY < changed.len() || cancelled() {
+        if MOST_CHANGED < changed.len() || cancelled() {
             return None;
         }
     }

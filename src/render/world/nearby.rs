@@ -5,24 +5,24 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 
 use super::intersect::Nearest;
-use super::{FEW_FOR_PATHS, World};
+use super::{MOST_WITHOUT_TREE_FOR_PATHS, World};
 use geometry::{Aabb, Ray, Shape, Solid};
 
 /// At most this many objects are listed.
-const MOST: usize = FEW_FOR_PATHS;
+const MOST_LISTED: usize = MOST_WITHOUT_TREE_FOR_PATHS;
 
 /// The objects that rays within a ball may meet.
 pub(crate) struct Nearby<'w> {
     world: &'w World,
     /// In file order, and how many; `None` if there are too many.
-    listed: Option<([u32; MOST], usize)>,
+    listed: Option<([u32; MOST_LISTED], usize)>,
 }
 
 impl<'w> Nearby<'w> {
     /// Those within a radius of a point.
     pub(crate) fn new(world: &'w World, point: DVec3, radius: f64) -> Self {
         let objects = &world.scene.objects;
-        let (mut list, mut count) = ([0; MOST], 0);
+        let (mut list, mut count) = ([0; MOST_LISTED], 0);
         let mut add = |number: u32| {
             if !may_reach(&objects[number as usize].shape, point, radius) {
                 return ControlFlow::Continue(());

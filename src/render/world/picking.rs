@@ -40,7 +40,7 @@ pub fn surface_under(
 
 /// The distance from a point along a unit vector to the nearest of these objects' surfaces, if that is
 /// less than `limit`.
-pub fn clearance<'o>(
+pub fn distance_to_surface<'o>(
     objects: impl Iterator<Item = &'o Object>,
     [origin, direction]: [DVec3; 2],
     limit: f64,
@@ -52,13 +52,13 @@ pub fn clearance<'o>(
 
 /// Where a point is in a picture of this size, in pixels from its top left corner; `None` behind the
 /// eye.
-pub fn pixel_of(point: DVec3, camera: &Camera, raster: Size) -> Option<[f64; 2]> {
+pub fn project_point(point: DVec3, camera: &Camera, raster: Size) -> Option<[f64; 2]> {
     Projection::new(camera, raster).pixel(point)
 }
 
 /// The part of a line that is inside a picture of this size, as its ends in pixels from the top left
 /// corner; `None` if none is.
-pub fn line_of(ends: [DVec3; 2], camera: &Camera, raster: Size) -> Option<[[f64; 2]; 2]> {
+pub fn project_line(ends: [DVec3; 2], camera: &Camera, raster: Size) -> Option<[[f64; 2]; 2]> {
     Projection::new(camera, raster).line(ends)
 }
 
@@ -68,7 +68,7 @@ pub fn pixel_width(point: DVec3, camera: &Camera, raster: Size) -> f64 {
 }
 
 /// The directions to the right, up and into the picture, as unit vectors.
-pub fn axes(camera: &Camera) -> [DVec3; 3] {
+pub fn camera_axes(camera: &Camera) -> [DVec3; 3] {
     let size = Size {
         width: 1,
         height: 1,
@@ -115,7 +115,10 @@ mod tests {
             [(6.0, 5.0, Some(2.0)), (6.0, 2.0, None), (-6.0, 9.0, None)]
         {
             let from = [DVec3::new(0.0, height, 0.0), DVec3::NEG_Y];
-            assert_eq!(clearance([&object].into_iter(), from, limit), expected);
+            assert_eq!(
+                distance_to_surface([&object].into_iter(), from, limit),
+                expected
+            );
         }
         for lens in [Lens::Perspective(60.0), Lens::Orthographic(10.0)] {
             let camera = camera(lens);
@@ -123,7 +126,7 @@ mod tests {
                 let surface = surface_under(&object, &camera, raster, pixel).expect("it is hit");
                 assert!((surface.point.length() - 4.0).abs() < 1e-12);
                 assert!((surface.normal - surface.point / 4.0).length() < 1e-12);
-                let [x, y] = pixel_of(surface.point, &camera, raster).expect("it is in front");
+                let [x, y] = project_point(surface.point, &camera, raster).expect("it is in front");
                 let centre = pixel.map(|at| f64::from(at) + 0.5);
                 assert!(
                     (x - centre[0]).abs() < 1e-9 && (y - centre[1]).abs() < 1e-9,
@@ -138,9 +141,12 @@ mod tests {
         let width = pixel_width(DVec3::ZERO, &perspective, raster);
         assert!((width - 2.0).abs() < 1e-12, "{width}");
         assert_eq!(
-            pixel_of(DVec3::new(0.0, 0.0, 11.0), &perspective, raster),
+            project_point(DVec3::new(0.0, 0.0, 11.0), &perspective, raster),
             None
         );
-        assert_eq!(axes(&perspective), [DVec3::X, DVec3::Y, DVec3::NEG_Z]);
+        assert_eq!(
+            camera_axes(&perspective),
+            [DVec3::X, DVec3::Y, DVec3::NEG_Z]
+        );
     }
 }

@@ -20,7 +20,7 @@ use crate::keymap::{Context, Mode};
 use crate::layout::raster;
 use crate::terminal::ColourDepth;
 use crate::{layout, theme};
-use render::{line_of, pixel_of, pixel_width};
+use render::{pixel_width, project_line, project_point};
 use scene::Size;
 
 /// Draws the current picture, letterboxed, with its symbols. Returns its cells if they are left to
@@ -177,7 +177,7 @@ fn axis(app: &App, depth: ColourDepth, (cells, size): (Rect, Size), buffer: &mut
     let colour = theme::axis(axis);
     for at in -reach..=reach {
         let point = transform.pivot() + unit * at as f64 * axis;
-        let Some(place) = pixel_of(point, &camera, size) else {
+        let Some(place) = project_point(point, &camera, size) else {
             continue;
         };
         let [x, y] = frame_window.on_screen(place, size);
@@ -200,7 +200,7 @@ fn path(shared: &Shared, depth: ColourDepth, cells: Rect, buffer: &mut Buffer) {
         } else {
             theme::PATH
         };
-        let Some(ends) = line_of(segment.ends, &query.camera, whole) else {
+        let Some(ends) = project_line(segment.ends, &query.camera, whole) else {
             continue;
         };
         let places = ends.map(|end| inspect::place_on_screen(shared, end, whole));

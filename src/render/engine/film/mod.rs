@@ -16,7 +16,7 @@ use super::pass_schedule::Step;
 use super::pixel_sampler::PixelSampler;
 use super::tile::{AREA, Remembers, Tile, TileShape};
 use crate::integrators::{Counts, FrameContext, LightComponent, MAPS, PhotonRules, Tracer};
-use crate::job::{Aov, Frames, Settings};
+use crate::job::{Aov, Frames, Job, Settings};
 use crate::picture::{DisplayTransform, Excess, Overexposure, Tone, UNKNOWN, denoise, tone};
 use crate::world::Dependencies;
 pub(crate) use raster::Raster;
@@ -63,16 +63,17 @@ pub(crate) struct NoMemory {
 
 impl Film {
     /// Bytes needed by a film and its finished picture.
-    pub(crate) fn bytes(settings: &Settings, frames: Frames, denoise: bool) -> u64 {
+    pub(crate) fn bytes(job: &Job) -> u64 {
+        let settings = &job.settings;
         let size = settings.traced().size();
         let bytes = |count: usize, each: usize| (count as u64).saturating_mul(each as u64);
-        let remembers = Remembers::of(settings, frames, denoise);
-        let denoising = if denoise && remembers == Remembers::Histories {
+        let remembers = Remembers::of(job);
+        let denoising = if job.denoise && remembers == Remembers::Histories {
             denoise::bytes(size)
         } else {
             0
         };
-        let values = match developed(frames, denoise) {
+        let values = match developed(job) {
             Frames::Live => size_of::<u32>() + size_of::<[f32; 3]>() + size_of::<f32>(),
             Frames::Last => 0,
             Frames::LastWithValues => size_of::<[f32; 3]>(),
@@ -90,15 +91,12 @@ impl Film {
     }
 
     /// Creates an empty film; reserves memory for its tiles and the finished picture.
-    pub(crate) fn new(
-        settings: &Settings,
-        frames: Frames,
-        denoise: bool,
-    ) -> Result<Self, NoMemory> {
+    pub(crate) fn new(job: &Job) -> Result<Self, NoMemory> {
+        let settings = &job.settings;
         let Settings { spp, aov, .. } = *settings;
         let size = settings.traced().size();
         let shape = TileShape::of(size);
-        let remembers = Remembers::of(settings, frames, denoise);
+        let remembers = Remembers::of(job);
         let count = shape.count(size);
         let film = || {
             let mut tiles = Vec::new();
@@ -117,11 +115,11 @@ impl Film {
                 squared_errors: 0.0,
                 noise: None,
                 over_budget: 0,
-                room: Raster::with_room(size.pixels(), developed(frames, denoise), remembers)?,
+                room: Raster::with_room(size.pixels(), developed(job), remembers)?,
             })
         };
         film().map_err(|_: TryReserveError| NoMemory {
-            bytes: Self::bytes(settings, frames, denoise),
+            bytes: Self::bytes(job),
         })
     }
 
@@ -363,13 +361,13 @@ impl Film {
     /// Converts the pixels traced so far, on the current thread pool; while only a coarse grid is
     /// traced, each pixel shows the nearest grid point up and to the left. All tiles must be begun.
     /// `None` once `cancelled` returns true, or if memory is short.
-    pub(crate) fn develop(&self, cancelled: impl Fn() -> bool) -> Option<Raster> {
+    pub(crate) fn develop(&self, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Raster> {
         let room = Raster::with_room(self.size.pixels(), Frames::Live, self.remembers);
         self.develop_in(room.ok()?, cancelled)
     }
 
     /// Like [`Film::develop`], but only once, with the memory reserved.
-    pub(crate) fn finish(&mut self, cancelled: impl Fn() -> bool) -> Option<Raster> {
+    pub(crate) fn finish(&mut self, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Raster> {
         let room = std::mem::take(&mut self.room);
         let mut raster = self.develop_in(room, cancelled)?;
         raster.overexposure = self.overexposure();
@@ -399,7 +397,11 @@ impl Film {
         Some(variances)
     }
 
-    fn develop_in(&self, mut raster: Raster, cancelled: impl Fn() -> bool) -> Option<Raster> {
+    fn develop_in(
+        &self,
+        mut raster: Raster,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Raster> {
         raster.range = self.range();
         let tone = Tone::of(self.aov, self.display, raster.range);
         let value = |tile: &Tile, at| tile.value(at, self.spp, self.aov);
@@ -479,9 +481,9 @@ impl Film {
 }
 
 /// What a picture is developed to: noise is reduced in values.
-fn developed(frames: Frames, denoise: bool) -> Frames {
-    match frames {
-        Frames::Last if denoise => Frames::LastWithValues,
+fn developed(job: &Job) -> Frames {
+    match job.frames {
+        Frames::Last if job.denoise => Frames::LastWithValues,
         frames => frames,
     }
 }

@@ -11,7 +11,7 @@ use super::noise::Doubling;
 use super::pass_schedule::{COARSEST, Step, samples_at};
 use super::pixel_sampler::PixelSampler;
 use crate::integrators::{Counts, FrameContext};
-use crate::job::{Aov, Frames, NO_OBJECT, Settings};
+use crate::job::{Aov, Frames, Job, NO_OBJECT};
 use crate::picture::UNKNOWN;
 use crate::world::Dependencies;
 use partial_pass::PartialPass;
@@ -83,10 +83,11 @@ pub(crate) enum Remembers {
 
 impl Remembers {
     /// What the tiles of a picture store. Live pictures are continued whether or not they are denoised.
-    pub(crate) fn of(settings: &Settings, frames: Frames, denoise: bool) -> Self {
+    pub(crate) fn of(job: &Job) -> Self {
+        let (settings, frames) = (&job.settings, job.frames);
         let shown = matches!(settings.aov, Some(Aov::Cost | Aov::Noise));
         let decides = settings.adaptive().is_some();
-        let guides = denoise && frames != Frames::Live;
+        let guides = job.denoise && frames != Frames::Live;
         let is_small = settings.traced().size().pixels() <= MOST_REMEMBERED;
         if shown || guides || decides || frames == Frames::Live && is_small {
             Self::Histories

@@ -21,7 +21,7 @@ const DARK: f64 = 0.02;
 const DIM: f64 = 0.35;
 
 /// Findings that are kept.
-const MOST: usize = 16;
+const MOST_FINDINGS: usize = 16;
 
 /// A recorded sample with what is needed to judge it.
 pub(super) struct Case<'r> {
@@ -54,7 +54,7 @@ pub(super) fn judge(case: &Case<'_>) -> Vec<Finding> {
     if kept.is_empty() {
         kept.push(judge.faint());
     }
-    kept.truncate(MOST);
+    kept.truncate(MOST_FINDINGS);
     kept
 }
 

@@ -3,7 +3,7 @@
 use super::shadow_rays::{ShadowRays, VertexLight};
 use super::vertices::Vertices;
 use crate::integrators::direct::{Shadow, sent_back, shadowed};
-use crate::integrators::probe::{Probe, SampleResult};
+use crate::integrators::probe::{BounceStage, Probe, SampleResult};
 use crate::light::{SphereLight, Spheres, light_sphere, luminous_sphere};
 use crate::sampling::{Draws, Fours, Purpose};
 use crate::world::{Occlusion, World};
@@ -188,7 +188,7 @@ fn add_chosen<C>(
         let chosen = &samples.chosen[batch * WIDTH..][..vertices.all().len()];
         let lights = LightBatch::new(world.lights(), chosen);
         let surfaces = (vertices, batch * WIDTH, numbers);
-        sample_spheres(world, &lights, surfaces, probe.may_go_on(bounce), &mut rays);
+        sample_spheres(world, &lights, surfaces, probe.stage(bounce), &mut rays);
         sample_points(world, &lights, surfaces, &mut rays);
     }
     for ray in &samples.shadowed {
@@ -211,7 +211,7 @@ fn sample_spheres(
     world: &World,
     batch: &LightBatch,
     (vertices, first, numbers): (&Vertices<'_, '_>, usize, &Fours),
-    may_go_on: bool,
+    stage: BounceStage,
     rays: &mut LightRays<'_>,
 ) {
     if batch.with_radiance == 0 {
@@ -222,7 +222,7 @@ fn sample_spheres(
         &batch.chances,
         batch.with_radiance,
     );
-    let samples = vertices.sample_spheres(world.level, spheres, numbers, may_go_on);
+    let samples = vertices.sample_spheres(world.level, spheres, numbers, stage);
     for lane in each_bit(samples.lanes) {
         let hides = |sphere: &SphereLight| {
             let (ray, place) = (samples.rays.get(lane), samples.places.get(lane));

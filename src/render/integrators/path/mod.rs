@@ -23,7 +23,7 @@ pub(crate) use vertices::{Aimed, Vertices};
 pub(crate) use wave::{PathWave, add_caustics, by_paths, shade_and_continue, trace_rays};
 
 use super::light_component::LightComponent;
-use super::probe::{Probe, RAY_BUDGET, Sample};
+use super::probe::{BounceStage, Probe, RAY_BUDGET, Sample};
 use crate::light::SphereLight;
 use crate::material::{Bsdf, BsdfSample, Scattered, Scattering, transmitted};
 use crate::sampling::power_heuristic;
@@ -178,10 +178,9 @@ pub(crate) fn density_of<C>(
     scattered: Scattered,
     bounce: u32,
 ) -> f64 {
-    if probe.may_go_on(bounce) {
-        bsdf.lobes_chance * scattered.density
-    } else {
-        0.0
+    match probe.stage(bounce) {
+        BounceStage::Inner => bsdf.lobes_chance * scattered.density,
+        BounceStage::Last => 0.0,
     }
 }
 

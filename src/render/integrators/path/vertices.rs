@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use crate::integrators::direct::{Shadow, shadow_rays};
+use crate::integrators::probe::BounceStage;
 use crate::integrators::vertex::Vertex;
 use crate::light::{Spheres, incoming_each, light_sphere};
 use crate::material::{BsdfSample, Component, Diffuse, LobeSamples, Point, power_each};
@@ -229,17 +230,16 @@ impl<'v, 'm> Vertices<'v, 'm> {
         })
     }
 
-    /// Samples lights with a radiance, chosen with these probabilities; `may_go_on`
-    /// says whether paths are not at their last bounce.
+    /// Samples lights with a radiance, chosen with these probabilities.
     pub(crate) fn sample_spheres(
         &self,
         level: Level,
         (spheres, chances, lanes): (&Spheres<Row>, &Row, u32),
         numbers: &Fours,
-        may_go_on: bool,
+        stage: BounceStage,
     ) -> SphereSamples {
         dispatch!(level, simd => {
-            self.sample_spheres_together(simd, (spheres, chances, lanes), numbers, may_go_on)
+            self.sample_spheres_together(simd, (spheres, chances, lanes), numbers, stage)
         })
     }
 
@@ -249,7 +249,7 @@ impl<'v, 'm> Vertices<'v, 'm> {
         simd: S,
         (spheres, chances, lanes): (&Spheres<Row>, &Row, u32),
         numbers: &Fours,
-        may_go_on: bool,
+        stage: BounceStage,
     ) -> SphereSamples {
         let (spheres, chance) = (spheres.load(simd), chances.load(simd));
         let surface = self.surface.load(simd);
@@ -257,10 +257,9 @@ impl<'v, 'm> Vertices<'v, 'm> {
         let toward = incoming.toward;
         let (scattered, density) = self.scatter(simd, lanes, toward);
         let highlight = self.highlight(simd, lanes, toward);
-        let by_path = if may_go_on {
-            self.lobes_chance.load(simd) * density
-        } else {
-            density.all(0.0)
+        let by_path = match stage {
+            BounceStage::Inner => self.lobes_chance.load(simd) * density,
+            BounceStage::Last => density.all(0.0),
         };
         let scattering = (scattered, by_path);
         let light = spheres.reflected(surface.point, chance, scattering, highlight);

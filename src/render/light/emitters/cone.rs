@@ -24,7 +24,7 @@ pub(crate) struct Cone {
     /// The cosine of its half angle; −1 contains all directions.
     pub(crate) cosine: f64,
     /// Whether the emitters shine to the opposite side as well.
-    pub(crate) both: bool,
+    pub(crate) is_two_sided: bool,
 }
 
 impl Cone {
@@ -32,24 +32,32 @@ impl Cone {
     pub(crate) const ALL: Self = Self {
         axis: DVec3::Z,
         cosine: -1.0,
-        both: false,
+        is_two_sided: false,
     };
 
-    /// A single direction, or two opposite ones.
-    pub(crate) fn around(axis: DVec3, both: bool) -> Self {
+    /// A single direction.
+    pub(crate) fn around(axis: DVec3) -> Self {
         Self {
             axis,
             cosine: 1.0,
-            both,
+            is_two_sided: false,
+        }
+    }
+
+    /// The same with the opposite directions.
+    pub(crate) fn two_sided(self) -> Self {
+        Self {
+            is_two_sided: true,
+            ..self
         }
     }
 
     /// A cone that contains both, the smallest unless one shines to both sides.
     pub(crate) fn union(&self, other: &Self) -> Self {
-        let both = self.both || other.both;
+        let is_two_sided = self.is_two_sided || other.is_two_sided;
         let mut axis = other.axis;
         // Which of two opposite normals counts is open.
-        if other.both && self.axis.dot(axis) < 0.0 {
+        if other.is_two_sided && self.axis.dot(axis) < 0.0 {
             axis = -axis;
         }
         let angles = [self.cosine, other.cosine].map(half_angle);
@@ -57,18 +65,24 @@ impl Cone {
         let cosine = self.axis.dot(axis);
         let between = half_angle(cosine);
         if between + its <= own {
-            return Self { both, ..*self };
+            return Self {
+                is_two_sided,
+                ..*self
+            };
         }
         if between + own <= its {
             return Self {
                 axis,
                 cosine: other.cosine,
-                both,
+                is_two_sided,
             };
         }
         let angle = 0.5 * (own + between + its);
         if PI <= angle {
-            return Self { both, ..Self::ALL };
+            return Self {
+                is_two_sided,
+                ..Self::ALL
+            };
         }
         let aside = axis - cosine * self.axis;
         let aside = aside
@@ -81,7 +95,7 @@ impl Cone {
         Self {
             axis: turned,
             cosine,
-            both,
+            is_two_sided,
         }
     }
 }

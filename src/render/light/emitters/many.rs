@@ -15,7 +15,7 @@ use scene::{Emitter, Light};
 
 /// Up to this number of lights that fade with the square of the distance, each is sampled at every
 /// surface.
-const FEW: usize = 16;
+const MOST_SAMPLED_EACH: usize = 16;
 
 /// The lights that fade with the square of the distance, if there are many. Each of the others is
 /// sampled at every surface: their distance does not tell how much light arrives.
@@ -35,12 +35,12 @@ impl ManyLights {
     pub(crate) fn build(
         lights: &[Light],
         known: Option<&Arc<Self>>,
-        cancelled: &dyn Fn() -> bool,
+        cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<Arc<Self>> {
         let numbered = (0_u32..).zip(lights);
         let found = numbered.filter_map(|(number, light)| Some((number, reach(light)?)));
         let (numbers, reaches): (Vec<_>, Vec<_>) = found.unzip();
-        if numbers.len() <= FEW {
+        if numbers.len() <= MOST_SAMPLED_EACH {
             return Some(Arc::new(Self::none(lights)));
         }
         let is_other = |number: &u32| numbers.binary_search(number).is_err();

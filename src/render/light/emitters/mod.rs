@@ -399,7 +399,11 @@ fn reach(scene: &Scene, textures: &Textures, object: &Object, part: u32) -> Opti
     let strength = radiance * patch.area();
     let cone = match &patch {
         Patch::Triangle(flat) | Patch::Parallelogram(flat) => {
-            Cone::around(flat.normal.normalize_or_zero(), material.lit == Faces::Both)
+            let cone = Cone::around(flat.normal.normalize_or_zero());
+            match material.lit {
+                Faces::Both => cone.two_sided(),
+                Faces::Front => cone,
+            }
         }
         Patch::Ball(_) => Cone::ALL,
     };

@@ -35,7 +35,7 @@ impl Sum {
             strength,
         } = *reach;
         // Opposite normals of emitters that shine to both sides must not cancel.
-        let is_turned = cone.both && cone.axis.dot(DVec3::new(1.0, 0.7, 0.4)) < 0.0;
+        let is_turned = cone.is_two_sided && cone.axis.dot(DVec3::new(1.0, 0.7, 0.4)) < 0.0;
         let axis = if is_turned { -cone.axis } else { cone.axis };
         // A cone of all directions has no axis.
         let narrow = 0.5 * (1.0 + cone.cosine);

@@ -50,7 +50,7 @@ impl Random {
 fn alike(count: usize, random: &mut Random) -> Vec<Reach> {
     let mut reaches = reaches(count, random);
     for reach in &mut reaches {
-        reach.cone = Cone::around((DVec3::Z + 0.1 * random.direction()).normalize(), true);
+        reach.cone = Cone::around((DVec3::Z + 0.1 * random.direction()).normalize()).two_sided();
     }
     reaches
 }
@@ -65,7 +65,12 @@ fn reaches(count: usize, random: &mut Random) -> Vec<Reach> {
         let cone = if random.next() < 0.2 {
             Cone::ALL
         } else {
-            Cone::around(random.direction(), random.next() < 0.3)
+            let cone = Cone::around(random.direction());
+            if random.next() < 0.3 {
+                cone.two_sided()
+            } else {
+                cone
+            }
         };
         Reach {
             bounds,
@@ -189,7 +194,7 @@ fn nothing_that_lights_a_point_is_left_out() {
         let at = bounds.min + 0.5 * (random.point(1.0) + 1.0) * bounds.size();
         let toward = (at - from).normalize();
         let sent = -toward.dot(cone.axis);
-        let sends = cone.cosine == -1.0 || 1e-9 < sent || cone.both && sent < -1e-9;
+        let sends = cone.cosine == -1.0 || 1e-9 < sent || cone.is_two_sided && sent < -1e-9;
         if sends && 1e-9 < toward.dot(normal) {
             lit += 1;
             assert!(0.0 < tree.chance(emitter as u32, from, normal));
@@ -211,7 +216,7 @@ fn cones_contain_both() {
     for _ in 0..300 {
         let cones: [Cone; 2] = array::from_fn(|_| Cone {
             cosine: 1.6 * random.next() - 0.6,
-            ..Cone::around(random.direction(), false)
+            ..Cone::around(random.direction())
         });
         let union = cones[0].union(&cones[1]);
         for cone in cones {
@@ -222,11 +227,11 @@ fn cones_contain_both() {
             }
         }
     }
-    let up = Cone::around(DVec3::Z, true);
-    let down = Cone::around(DVec3::NEG_Z, true);
+    let up = Cone::around(DVec3::Z).two_sided();
+    let down = Cone::around(DVec3::NEG_Z).two_sided();
     assert_eq!(up.union(&down).cosine, 1.0);
-    let up = Cone::around(DVec3::Z, false);
-    let all_around = up.union(&Cone::around(DVec3::NEG_Z, false)).cosine;
+    let up = Cone::around(DVec3::Z);
+    let all_around = up.union(&Cone::around(DVec3::NEG_Z)).cosine;
     assert!(all_around <= 0.0, "{all_around}");
 }
 

@@ -54,7 +54,7 @@ type At = (usize, usize);
 
 impl Tree {
     /// Builds the tree; `None` once `cancelled` returns true.
-    pub(crate) fn build(emitters: &[Reach], cancelled: &dyn Fn() -> bool) -> Option<Self> {
+    pub(crate) fn build(emitters: &[Reach], cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         let count = emitters.len();
         let mut tree = Self {
             nodes: Vec::with_capacity((2 * count).saturating_sub(1)),
@@ -81,7 +81,7 @@ impl Tree {
         emitters: &[Reach],
         order: &mut [u32],
         (place, depth): (usize, u32),
-        cancelled: &dyn Fn() -> bool,
+        cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<Reach> {
         if POLLED <= order.len() && cancelled() {
             return None;
@@ -373,7 +373,7 @@ struct Spot<N> {
     /// The cosine of the half angle of the cone.
     cosine: N,
     /// 1 if the emitters shine to both sides, else 0.
-    both: N,
+    is_two_sided: N,
     strength: N,
 }
 
@@ -384,7 +384,7 @@ impl From<&Node> for Spot<f64> {
             square_radius: node.square_radius,
             axis: node.cone.axis.into(),
             cosine: node.cone.cosine,
-            both: f64::from(node.cone.both),
+            is_two_sided: f64::from(node.cone.is_two_sided),
             strength: node.strength,
         }
     }
@@ -408,7 +408,7 @@ impl<N: Lanes> Spot<N> {
         };
         let received = Angle::of_cosine(normal.dot(toward)).less(wide).cosine;
         let along = -self.axis.dot(toward);
-        let along = N::select(self.both.equals(one), along.abs(), along);
+        let along = N::select(self.is_two_sided.equals(one), along.abs(), along);
         let sent = Angle::of_cosine(along)
             .less(Angle::of_cosine(self.cosine))
             .less(wide)
@@ -442,7 +442,7 @@ impl SpotRows {
         self.vectors[1].set(lane, node.cone.axis);
         self.numbers[0].0[lane] = node.square_radius;
         self.numbers[1].0[lane] = node.cone.cosine;
-        self.numbers[2].0[lane] = f64::from(node.cone.both);
+        self.numbers[2].0[lane] = f64::from(node.cone.is_two_sided);
         self.numbers[3].0[lane] = node.strength;
     }
 
@@ -453,7 +453,7 @@ impl SpotRows {
             square_radius: self.numbers[0].load(simd),
             axis: self.vectors[1].load(simd),
             cosine: self.numbers[1].load(simd),
-            both: self.numbers[2].load(simd),
+            is_two_sided: self.numbers[2].load(simd),
             strength: self.numbers[3].load(simd),
         }
     }

@@ -23,7 +23,7 @@ impl Guides {
         &mut self,
         spp: u32,
         shot: &FrameContext<'_>,
-        cancelled: impl Fn() -> bool + Sync,
+        cancelled: &(dyn Fn() -> bool + Sync),
     ) -> bool {
         let size = shot.settings.traced().size();
         let integrator = shot.settings.integrator;

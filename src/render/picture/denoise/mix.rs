@@ -18,7 +18,7 @@ const ROWS: usize = 16;
 const TOLERANCE: f32 = 1.8;
 
 /// Keeps means over patches without alike surfaces defined.
-const FEW: f32 = 1e-6;
+const LEAST_WEIGHT: f32 = 1e-6;
 
 /// How neighbours are weighted.
 #[derive(Clone, Copy, Debug)]
@@ -163,7 +163,7 @@ impl Compared {
             for x in (0..layout.width).step_by(WIDTH) {
                 let place = (layout.row(other) + x).wrapping_add_signed(by[0]);
                 let [alike, apart] = self.patch(simd, layout.row(row) + x);
-                let distance = (apart / (alike + FEW)).max_precise(zero);
+                let distance = (apart / (alike + LEAST_WEIGHT)).max_precise(zero);
                 let middle = layout.row(row + 1) + x;
                 let own = Lights::load(simd, from, layout.row(y) + x);
                 let neighbour = Lights::load(simd, from, place);

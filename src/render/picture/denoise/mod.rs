@@ -58,7 +58,7 @@ const ALIKE: f32 = 1.25;
 const UNKNOWN_REACH: usize = 3;
 
 /// Numbers from here on are left out, as are those that are none: their squares may overflow.
-const MOST: f32 = 1e15;
+const TOO_LARGE: f32 = 1e15;
 
 /// What is mixed: light divided by albedo, and a number beside it.
 #[derive(Clone, Debug)]
@@ -143,7 +143,7 @@ impl Noisy<'_> {
     }
 
     /// The light divided by albedo, and its variance. Pixels with larger numbers than
-    /// [`MOST`] are left out.
+    /// [`TOO_LARGE`] are left out.
     fn divided(self, features: &mut Features<'_>) -> Mixed {
         let layout = features.layout;
         let is_usual = |pixel: usize| {
@@ -155,7 +155,7 @@ impl Noisy<'_> {
             let values = [self.values[pixel], normal, albedo];
             let numbers = values.as_flattened().iter();
             let mut numbers = numbers.chain([&self.variances[pixel], &nearness]);
-            numbers.all(|number| number.abs() < MOST)
+            numbers.all(|number| number.abs() < TOO_LARGE)
         };
         let light = |channel: usize| {
             layout.filled(0.0, |pixel| {

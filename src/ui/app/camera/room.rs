@@ -8,7 +8,7 @@ use crate::app::room::Room;
 use crate::app::{Shared, display};
 use crate::keymap::Mode;
 use crate::msg::Effect;
-use render::{axes, pixel_width};
+use render::{camera_axes, pixel_width};
 
 /// Angles of orbit, in degrees, for dragging across a cell, which is twice as high as wide.
 const DRAG: (f64, f64) = (2.0, 4.0);
@@ -51,7 +51,7 @@ pub(crate) fn drag_to_pan(shared: &mut Shared, from: (u16, u16), at: (u16, u16))
         return;
     };
     let unit = pixel_width(camera.target, &camera, size) / display::magnification(shared, size);
-    let [right, up, _] = axes(&camera);
+    let [right, up, _] = camera_axes(&camera);
     // A cell shows two pixels, one above the other.
     let by = 2.0 * moved(from.1, at.1) * up - moved(from.0, at.0) * right;
     move_camera(shared, |now| shifted(now, unit * by));

@@ -4,7 +4,7 @@
 use crate::app::{Shared, display};
 use crate::reference::Made;
 use image_file::ImageFormat;
-use render::{Aov, Frames, Job, PictureMetadata, Region, Settings, denoises};
+use render::{Aov, Frames, Job, PictureMetadata, Region, Settings, can_denoise};
 use scene::{Camera, Rendering, Size};
 
 /// The job that corresponds to a picture of this size. What the user has set comes before what the
@@ -24,7 +24,7 @@ pub(super) fn graded_job(shared: &Shared, made: &Made, picture: Size) -> Result<
         return Ok(job);
     };
     let aov = shared.pictures.aov.or(record.aov);
-    let denoise = record.denoise && denoises(aov);
+    let denoise = record.denoise && can_denoise(aov);
     let camera = record.view.of(&job.scene.camera)?;
     let settings = Settings::new(size, &rendering);
     Ok(Job {

@@ -8,7 +8,7 @@ use crate::app::Shared;
 use crate::app::pictures::histogram::ShownHistogram;
 use crate::msg::Effect;
 use language::Node;
-use render::{Aov, Colours, Frame, Histogram, MOST_HALF_STOPS, denoises, exposes};
+use render::{Aov, Colours, Display, Frame, Histogram, MOST_HALF_STOPS, can_denoise};
 use scene::{Emitter, Transfer};
 use text::{concise, percentage, rounded};
 
@@ -20,7 +20,7 @@ pub(crate) fn show(shared: &mut Shared, aov: Option<Aov>) {
 
 /// Whether the pictures show something that the display changes.
 fn is_exposed(shared: &Shared) -> bool {
-    shared.pictures.wireframe.is_none() && exposes(shared.pictures.aov)
+    shared.pictures.wireframe.is_none() && Display::affects(shared.pictures.aov)
 }
 
 /// Says why the display changes nothing here; returns whether that is so.
@@ -92,7 +92,7 @@ pub(crate) fn toggle_false_colours(shared: &mut Shared) {
 /// Reduces the noise of the preview and of the full-size trace on screen, or no longer. Both
 /// continue from the samples they have.
 pub(crate) fn toggle_denoising(shared: &mut Shared) -> Vec<Effect> {
-    if shared.pictures.wireframe.is_some() || !denoises(shared.pictures.aov) {
+    if shared.pictures.wireframe.is_some() || !can_denoise(shared.pictures.aov) {
         let light = shared.key_for("show-light");
         let words = format!("only light has noise to reduce; press {light}");
         shared.say(words);
@@ -111,7 +111,7 @@ pub(crate) fn toggle_denoising(shared: &mut Shared) -> Vec<Effect> {
 
 /// Whether the noise of the picture on screen is reduced, in a word; `None` if it is not to be.
 fn denoising_name(shared: &Shared) -> Option<&'static str> {
-    let is_on = shared.pictures.display.denoised && denoises(shared.pictures.aov);
+    let is_on = shared.pictures.display.denoised && can_denoise(shared.pictures.aov);
     let latest = shared.picture().latest.as_ref();
     let is_without = latest.is_some_and(|frame| frame.denoised.is_empty());
     let is_unable = shared.picture().is_complete() && is_without;
@@ -165,7 +165,11 @@ pub(crate) fn legend(shared: &Shared) -> Option<String> {
         return None;
     }
     let display = shared.pictures.display;
-    let Some(aov) = shared.pictures.aov.filter(|aov| !exposes(Some(*aov))) else {
+    let Some(aov) = shared
+        .pictures
+        .aov
+        .filter(|aov| !Display::affects(Some(*aov)))
+    else {
         let is_false = display.colours == Colours::False;
         return is_false.then(|| "-8 to 0 EV, green below, white above".to_owned());
     };
@@ -234,7 +238,7 @@ pub(super) fn follow_histogram(shared: &mut Shared) {
 /// Whether a frame shows light or albedo, with its values.
 pub(crate) fn is_light(frame: &Frame) -> bool {
     let settings = frame.settings();
-    settings.is_some_and(|settings| exposes(settings.aov)) && !frame.values.is_empty()
+    settings.is_some_and(|settings| Display::affects(settings.aov)) && !frame.values.is_empty()
 }
 
 /// A number with about three digits.

@@ -5,7 +5,7 @@ use crate::app::Shared;
 use crate::app::pictures::{Outline, Symbols};
 use crate::keymap::Mode;
 use language::Node;
-use render::pixel_of;
+use render::project_point;
 use scene::Emitter;
 
 /// The most symbols of groups, and the most of lights: more would hide the picture.
@@ -115,7 +115,7 @@ fn symbols_of(shared: &Shared, kind: SymbolKind) -> Option<Vec<Symbol>> {
         }
     };
     let symbol = |(node, place)| {
-        let [x, y] = frame_window.on_screen(pixel_of(place, &camera, size)?, size);
+        let [x, y] = frame_window.on_screen(project_point(place, &camera, size)?, size);
         let is_inside =
             0.0 <= x && 0.0 <= y && x < f64::from(size.width) && y < f64::from(size.height);
         let cell = (x as u16, y as u16 / 2);

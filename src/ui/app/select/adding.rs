@@ -10,7 +10,7 @@ use crate::app::shared::menu::{Entry, Menu, Purpose};
 use crate::app::{Shared, Tool, inspect, transform};
 use crate::keymap::Mode;
 use language::{NewNode, Node};
-use render::{clearance, pixel_width, surface_under};
+use render::{distance_to_surface, pixel_width, surface_under};
 
 /// The fraction of the picture's height that a new thing takes up.
 const SHARE: f64 = 0.2;
@@ -164,7 +164,7 @@ fn lifted(shared: &Shared, centre: DVec3, half: f64) -> DVec3 {
         return centre;
     };
     let up = camera.up.normalize_or_zero();
-    match clearance(scene.objects.iter(), [centre, -up], half) {
+    match distance_to_surface(scene.objects.iter(), [centre, -up], half) {
         Some(below) => centre + (half - below) * up,
         None => centre,
     }

@@ -211,7 +211,7 @@ fn dragging_with_another_button_or_ctrl_pans_so_that_the_scene_follows() {
         let (cells, size) = session.app.shared.raster().expect("there is room");
         let seen = |session: &Session| {
             let camera = session.app.shared.camera().expect("there is a camera");
-            render::pixel_of(before.target, &camera, size).expect("it is in front")
+            render::project_point(before.target, &camera, size).expect("it is in front")
         };
         let [x, y] = seen(&session);
         let (column, row) = (cells.width / 2, cells.height / 2);

@@ -11,7 +11,7 @@ use crate::app::{Shared, Stride, display, text};
 use crate::keymap::{Mode, types_amount};
 use ::text::Edit;
 use language::{Along, Language, Motion, Node, Pose};
-use render::{axes, pixel_width};
+use render::{camera_axes, pixel_width};
 use scene::{Camera, Size};
 
 /// Decimals with which a motion is tried.
@@ -112,7 +112,7 @@ fn pose(shared: &Shared, node: Node) -> Option<Pose> {
         _ if stated.is_some() => stated,
         Node::View => {
             let own = shared.own_camera()?;
-            let [right, up, into] = axes(&own);
+            let [right, up, into] = camera_axes(&own);
             Some(Pose {
                 centre: own.eye,
                 axes: [right, up, -into],
@@ -246,7 +246,7 @@ fn change(moving: &mut Moving, shared: &mut Shared, change: impl FnOnce(&mut Tra
 
 /// The edits that a motion makes to the text before it.
 fn edits_of_motion(shared: &Shared, transform: &Transform) -> Result<Vec<Edit>, String> {
-    let motion = transform.motion(axes(&transform.camera));
+    let motion = transform.motion(camera_axes(&transform.camera));
     if motion.is_identity() {
         return Ok(Vec::new());
     }
