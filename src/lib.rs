@@ -38,7 +38,7 @@
 //! | [`image_file`] | picture files: writes frames, reads textures | what is in a scene |
 //! | [`assets`] | reads the pictures and meshes that scenes name | how they are shaded |
 //! | [`compare`] | two pictures against each other | files, scenes |
-//! | [`part`] | blocks of unfinished pictures on disk: shards, checkpoints, traces of the interface, merging | scenes, tracing |
+//! | [`shards`] | blocks of unfinished pictures on disk: shards, checkpoints, traces of the interface, merging | scenes, tracing |
 //! | [`track`] | values over frames: reads track files, edits texts to show a frame | files, rendering |
 //! | [`watch`] | reports changes of paths on disk | what the files contain |
 //! | [`ui`] | the terminal: the only room that knows ratatui and crossterm; a mode is a folder of `app`, a command a row of `app/command`, a key a row of its room | how pixels are computed |
@@ -82,9 +82,9 @@ pub use image_file;
 pub use language;
 pub use memory;
 pub use obj;
-pub use part;
 pub use render;
 pub use scene;
+pub use shards;
 pub use text;
 pub use track;
 pub use ui;

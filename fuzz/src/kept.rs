@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use halflight::image_file;
 use halflight::language::{Language, Source};
-use halflight::part;
 use halflight::render::Frames;
 use halflight::scene::Meshes;
+use halflight::shards;
 use halflight::text::Diagnostic;
 use halflight::{config, track};
 use tempfile::NamedTempFile;
@@ -55,7 +55,7 @@ pub fn part(input: &[u8]) {
     let mut file = NamedTempFile::new().expect("there is a temporary folder");
     file.write_all(input).expect("the file can be written");
     let paths = [file.path().to_path_buf()];
-    if let Err(error) = part::merge(&paths, Frames::Last) {
+    if let Err(error) = shards::merge(&paths, Frames::Last) {
         assert!(!error.to_string().is_empty());
     }
 }

@@ -53,7 +53,7 @@ pub(super) const CHUNK: usize = 8192;
 /// Rejected: all three axes up to 256 references (building takes 1.5 times as long, and rays are at
 /// most 0.4 % faster); all three for any number, with 64 bins (three times as long; rays are 4 %
 /// faster among a million triangles, not at all among spheres).
-const ONE_AXIS: usize = 16;
+const MANY: usize = 16;
 
 /// The number of references above which they are partitioned in parallel.
 const SHARED: usize = 65_536;
@@ -192,7 +192,7 @@ pub(super) fn by_area(
     let division = match count {
         // There is only one way.
         2 => return Halves::of(references, 1, cancel),
-        0..ONE_AXIS => {
+        0..MANY => {
             let division =
                 cheapest::<Bounds, 3, { BINS / 2 }>([0, 1, 2], references, extent, cancel)?;
             let first = match division {
@@ -202,9 +202,7 @@ pub(super) fn by_area(
             // Gathering extents along three axes would compute them three times.
             return Halves::of(references, first, cancel);
         }
-        ONE_AXIS..ALL_BINS => {
-            cheapest::<Extent, 1, { BINS / 2 }>(widest, references, extent, cancel)?
-        }
+        MANY..FEW => cheapest::<Extent, 1, { BINS / 2 }>(widest, references, extent, cancel)?,
         _ => cheapest::<Extent, 1, BINS>(widest, references, extent, cancel)?,
     };
     match division {
@@ -233,8 +231,8 @@ pub(super) fn by_count(references: &mut [Reference], extent: &Extent) -> usize {
 /// The maximum number of bins along an axis.
 const BINS: usize = 16;
 
-/// Fewer references than this have half as many bins: for few, sweeping the bins is most of the work.
-const ALL_BINS: usize = 64;
+/// Fewer references have half as many bins: for few, sweeping the bins is most of the work.
+const FEW: usize = 64;
 
 /// A division: boxes with centres in the bins before `bin` go to the first part.
 struct Division<G> {

@@ -31,7 +31,7 @@ use assets::NoFolder;
 use file::ReadError;
 use image_file::Unreadable;
 use language::UnknownLanguage;
-use part::Unmerged;
+use shards::Unmerged;
 use text::{Diagnostic, counted, percentage};
 
 pub use bench::{Bench, bench};
@@ -141,7 +141,7 @@ pub enum Error {
         /// The part file.
         path: PathBuf,
         /// Why not.
-        source: part::Refused,
+        source: shards::Refused,
     },
     /// Parts cannot be merged.
     #[error(transparent)]

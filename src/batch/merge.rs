@@ -6,7 +6,7 @@ use super::finding::print_biases;
 use super::output::Target;
 use super::{Error, Messages, stdout};
 use image_file::Picture;
-use part::ranges;
+use shards::ranges;
 
 /// Part files to merge.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,7 +38,7 @@ fn try_merge(work: &Merge) -> Result<(), Error> {
             target
                 .output
                 .check_is_not(&work.parts, "it is one of the parts")?;
-            let merged = part::merge(&work.parts, target.format.frames())?;
+            let merged = shards::merge(&work.parts, target.format.frames())?;
             print_biases(Messages::Text, &merged.frame, &merged.picture);
             if let Some(reason) = target.format.refuses(merged.frame.size) {
                 return Err(Error::Refused(format!("the picture is {reason}")));
@@ -49,7 +49,7 @@ fn try_merge(work: &Merge) -> Result<(), Error> {
             })
         }
         MergePurpose::Missing => {
-            let (shards, damaged) = part::missing(&work.parts)?;
+            let (shards, damaged) = shards::missing(&work.parts)?;
             for damage in damaged {
                 Messages::Text.note(&damage.to_string());
             }

@@ -37,7 +37,7 @@ use show::ShowArguments;
 use ::render::{CPU_LEVEL_VARIABLE, CPU_LEVELS};
 use batch::{Bench, Check, Compare, Convert, Explain, Merge, Render, Show, Verdict};
 use file::ReadError;
-use part::Unmerged;
+use shards::Unmerged;
 use text::{alternatives, nearest_word, visible};
 
 /// Parts cannot be merged.
@@ -203,7 +203,7 @@ fn failure_code(error: &batch::Error) -> u8 {
         Error::Refused(_) => USAGE,
         Error::Create { .. } => NO_OUTPUT,
         Error::Part { source, .. } => match source {
-            part::Refused::Busy => TRY_AGAIN,
+            shards::Refused::Busy => TRY_AGAIN,
             _ => NO_OUTPUT,
         },
         Error::Kept { signal, .. } | Error::KeptFrames { signal, .. } if signal.is_interrupt() => {

@@ -16,8 +16,8 @@ use batch::{
     SequenceOutput, SequenceWork, Work,
 };
 use image_file::{ImageFormat, MovieFormat, NoPattern, Pattern};
-use part::{MOST_SHARDS, Shard};
 use render::Aov;
+use shards::{MOST_SHARDS, Shard};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:

@@ -2,10 +2,9 @@
 //! beside them.
 
 use super::lines::{RayLine, RayPart};
-use super::names::{number, numbers};
+use super::names::{channels, exact_percent, number, numbers};
 use super::wording;
 use render::{Densities, EmitterTerm, Explanation, LightTerm, RayEnd, Shading, UnlitReason};
-use scene::Rgb;
 
 /// A value of a line, and what it is.
 pub type Value = (&'static str, String);
@@ -79,16 +78,16 @@ pub fn values(
             values.extend(shading.densities.map(weight));
         }
         (RayPart::Whole, end) => {
-            values.push(("weight", colour(ray.weight)));
+            values.push(("weight", channels(ray.weight)));
             if let Some(chosen) = ray.chosen {
-                values.push(("chance", percent(chosen.chance * chosen.survival)));
+                values.push(("chance", exact_percent(chosen.chance * chosen.survival)));
                 values.extend(chosen.density.map(|of| ("density", number(of))));
             }
             match end {
                 RayEnd::Surface(shading) => values.extend(surface_values(shading)),
                 RayEnd::Light(hit) => {
                     values.push(("t", number(hit.t)));
-                    values.push(("radiance", colour(hit.radiance)));
+                    values.push(("radiance", channels(hit.radiance)));
                     values.extend(hit.densities.map(weight));
                 }
                 RayEnd::Missed { densities, .. } => values.extend(densities.map(weight)),
@@ -104,7 +103,7 @@ fn surface_values(shading: &Shading) -> Vec<Value> {
     let hit = &shading.hit;
     let mut values = Vec::new();
     if let Some(boundary) = shading.boundary {
-        let share = percent(boundary.reflectance);
+        let share = exact_percent(boundary.reflectance);
         let indices = boundary.indices.map(number).join(" to ");
         values.push(("reflects", format!("{share}, n {indices}")));
     }
@@ -123,18 +122,18 @@ fn light_values(light: &LightTerm, name: impl Fn(u32) -> Option<String>) -> Vec<
     let blocker = blocker.and_then(|crossing| name(crossing.object));
     let visible = match (light.transmittance, blocker) {
         (_, Some(blocker)) => format!("no: {blocker}"),
-        (Some(share), None) => percent(share),
+        (Some(share), None) => exact_percent(share),
         (None, None) => "not traced".to_owned(),
     };
     let mut values = vec![
         ("visible", visible),
         ("N·L", number(light.cosine)),
-        ("reflects", colour(light.reflected)),
+        ("reflects", channels(light.reflected)),
         ("distance", number(light.distance)),
         ("falloff", number(light.radial)),
     ];
     if light.chance != 1.0 {
-        values.push(("chosen with", percent(light.chance)));
+        values.push(("chosen with", exact_percent(light.chance)));
     }
     if light.spot != 1.0 {
         values.push(("cone", number(light.spot)));
@@ -146,10 +145,10 @@ fn light_values(light: &LightTerm, name: impl Fn(u32) -> Option<String>) -> Vec<
 fn emitter_values(emitter: &EmitterTerm) -> Vec<Value> {
     let mut values = vec![
         ("N·L", number(emitter.cosine)),
-        ("reflects", colour(emitter.reflected)),
+        ("reflects", channels(emitter.reflected)),
         ("distance", number(emitter.distance)),
     ];
-    values.extend(emitter.emitted.map(|of| ("radiance", colour(of))));
+    values.extend(emitter.emitted.map(|of| ("radiance", channels(of))));
     values.push(weight(emitter.densities));
     values
 }
@@ -159,12 +158,4 @@ fn weight(densities: Densities) -> Value {
     let [share, by_light, by_path] =
         [densities.weight, densities.by_light, densities.by_path].map(number);
     ("MIS", format!("{share}, light {by_light}, path {by_path}"))
-}
-
-fn percent(share: f64) -> String {
-    format!("{} %", number(100.0 * share))
-}
-
-fn colour(of: Rgb) -> String {
-    numbers(&of.to_array())
 }

@@ -171,7 +171,17 @@ pub(super) fn colour(colour: Rgb) -> String {
     }
 }
 
-/// A fraction as a percentage.
+/// The channels of a colour, of greys too.
+pub(super) fn channels(colour: Rgb) -> String {
+    numbers(&colour.to_array())
+}
+
+/// A fraction as a percentage with the digits of a number.
+pub(super) fn exact_percent(share: f64) -> String {
+    format!("{} %", number(100.0 * share))
+}
+
+/// A fraction as a percentage with a decimal at most.
 pub(super) fn percent(share: f64) -> String {
     let tenths = (1000.0 * share).round();
     if tenths == 0.0 && 0.0 < share {

@@ -1,7 +1,7 @@
 //! The words for what a record says of a ray. They are chosen here alone; scripts, the interface and
 //! texts differ in how many of them they have room for.
 
-use super::names::{number, percent, side};
+use super::names::{exact_percent, percent, side};
 use render::{RayKind, Side, Stop, SurfaceHit, UnlitReason};
 
 /// Words for one thing.
@@ -86,7 +86,7 @@ pub fn stop(stop: Stop, depth: u32) -> Wording {
             "the path ends: its weight overflowed",
         ),
         Stop::Roulette { survival } => {
-            let [short, long] = [number(100.0 * survival) + " %", percent(survival)];
+            let [short, long] = [exact_percent(survival), percent(survival)];
             Wording::new(
                 "roulette",
                 format!("ends by roulette, survival {short}"),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::{Output, Target};
 use crate::{Reading, Tracing};
 use image_file::{ImageFormat, MovieFormat, Pattern};
-use part::Shard;
+use shards::Shard;
 
 /// What is to be rendered.
 #[derive(Clone, Debug, PartialEq)]

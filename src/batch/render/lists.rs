@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use file::directory_of;
 use image_file::Pattern;
-use part::Shard;
+use shards::Shard;
 
 /// The path of the list of a process, such as `turn.frames` beside `turn.%05d.png`, one for each shard:
 /// processes on several machines do not append to the same file.

@@ -1,6 +1,6 @@
 //! The numbers of the frames to render.
 
-use part::Shard;
+use shards::Shard;
 
 /// Numbers of frames in ascending order, equally far apart. Takes no memory for each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -13,12 +13,12 @@ use super::tally::Tally;
 use super::{Error, Means, Output};
 use crate::progress::Reporter;
 use crate::signals::Signals;
-use part::{Header, NoTrace, Part, Shard, Traces};
 use render::{
     BLOCK, Block, BlockTracer, Blocks, Counts, Frame, Job, Limit, Progress, Provenance, Settings,
     memory_for_blocks,
 };
 use scene::Integrator;
+use shards::{Header, NoTrace, Part, Shard, Traces};
 use text::counted;
 
 /// A block takes this long at most until it is written, and this long again until it is synced: at
@@ -51,7 +51,7 @@ impl PartFile {
     pub(super) fn beside(picture: &Output, parts: Parts) -> Result<Self, Error> {
         match picture {
             Output::File(path) if !path.exists() || path.is_file() => Ok(Self {
-                path: part::path_beside(path, parts.shard),
+                path: shards::path_beside(path, parts.shard),
                 parts,
             }),
             _ => Err(Error::Refused(
@@ -226,7 +226,7 @@ impl Opened {
                 pixels,
             });
         }
-        let mut frame = part::merge(&[self.path], frames)?.frame;
+        let mut frame = shards::merge(&[self.path], frames)?.frame;
         frame.progress.elapsed = elapsed;
         reporter.finish(&Progress {
             noise: frame.progress.noise,

@@ -14,13 +14,8 @@ use scene::{Dielectric, Emitter, Faces, Falloff, Gloss, Highlight, Image, Mirror
 
 fn built(job: &Job, known: Option<&World>) -> Option<World> {
     let scene = Arc::clone(&job.scene);
-    World::build(
-        scene,
-        &job.images,
-        WorldSettings::of(&job.settings),
-        known,
-        &|| false,
-    )
+    let settings = WorldSettings::of(&job.settings);
+    World::build(scene, &job.images, settings, known, &|| false)
 }
 
 /// A job in progress, taken step by step.

@@ -11,9 +11,9 @@ use std::time::{Duration, Instant};
 use crate::msg::{Origin, Recalled};
 use crate::queue::spawn;
 use assets::FileDigests;
-use part::{Contents, Shard, Traces};
 use render::{Checkpoint, Job, Provenance, Renderer};
 use scene::Scene;
+use shards::{Contents, Shard, Traces};
 
 /// The least time spent on a trace that is kept.
 const LEAST: Duration = Duration::from_secs(10);
@@ -97,7 +97,7 @@ impl Traced {
                 report(Recalled::Unreadable(error.to_string()));
                 None
             });
-            let part = part::find_part(&part::path_beside(&beside, Shard::WHOLE), &picture);
+            let part = shards::find_part(&shards::path_beside(&beside, Shard::WHOLE), &picture);
             // The trace of equals.
             let found = part.into_iter().chain(trace);
             let Some(found) = found.max_by_key(Contents::all_taken) else {

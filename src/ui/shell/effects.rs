@@ -35,9 +35,9 @@ use crate::service::writing::Writers;
 use crate::service::{self, Answering};
 use assets::Wanted;
 use others::{reaches_others, without_others};
-use part::Traces;
 use render::{Checkpoint, Frame, Job, Refusal, Renderer, Threads};
 use scene::Scene;
+use shards::Traces;
 
 /// Time for which memory freed by pictures is kept for the next ones.
 const TRIM_TIME: Duration = Duration::from_secs(30);

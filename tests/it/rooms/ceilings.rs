@@ -50,11 +50,11 @@ const ROOMS: &[(&str, usize)] = &[
     // Longer names wrap more lines.
     ("language", 17800),
     ("obj", 2200),
-    // It also holds the traces of the interface.
-    ("part", 1300),
     // Each of its rooms lists what others may use, and films give and take blocks.
     ("render", 16400),
     ("scene", 1300),
+    // It also holds the traces of the interface.
+    ("shards", 1300),
     ("track", 1700),
     // Each room lists what others may call, and each function the state it changes. Frames, base64 and
     // the nearest of few colours take a hundred lines, for ten dependencies.

@@ -225,7 +225,7 @@ fn the_cost_is_seen_of_the_picture_of_light() {
 /// Whether it has more or fewer samples than a trace.
 #[test]
 fn the_part_beside_the_picture_is_continued() {
-    use part::{Header, Part};
+    use shards::{Header, Part};
     let test = Test::new();
     let digest = FileDigests::of(&origin(&test.files, "").found);
     let digest = digest.expect("it is there").fingerprint("first");
