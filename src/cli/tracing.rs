@@ -68,9 +68,7 @@ impl TracingArguments {
     /// With layers and, unless an AOV without noise is rendered, with noise reduced.
     pub(super) fn with(self, layers: Vec<Aov>, denoise: bool) -> Result<Tracing, String> {
         let tracing = self.into_tracing();
-        let noiseless = tracing
-            .aov
-            .filter(|aov| denoise && !can_denoise(Some(*aov)));
+        let noiseless = tracing.aov.filter(|&of| denoise && !can_denoise(Some(of)));
         if let Some(aov) = noiseless {
             return Err(format!(
                 "--denoise reduces the noise of light: not with --aov {}",

@@ -14,7 +14,7 @@ const FILES: usize = 25;
 
 /// The folders with more, and how many they have.
 const CROWDED: &[(&str, usize)] = &[
-    ("src/language", 31),
+    ("src/language", 29),
     ("src/render/tests", 36),
     ("src/ui/view", 35),
 ];
@@ -30,7 +30,7 @@ const LONG: &[(&str, usize)] = &[
     ("src/geometry/tests/quadrics.rs", 530),
     ("src/language/ray/tests/properties.rs", 508),
     ("src/language/tests/structure.rs", 563),
-    ("src/render/tests/edits.rs", 503),
+    ("src/render/tests/edits.rs", 502),
     ("src/render/tests/paths.rs", 503),
     ("src/render/tests/photons.rs", 506),
 ];
@@ -50,8 +50,9 @@ const ROOMS: &[(&str, usize)] = &[
     // Longer names wrap more lines.
     ("language", 17800),
     ("obj", 2200),
-    // Each of its rooms lists what others may use, and films give and take blocks.
-    ("render", 16400),
+    // Each of its rooms lists what others may use, and films give and take blocks. Longer names wrap more
+    // lines.
+    ("render", 16500),
     ("scene", 1300),
     // It also holds the traces of the interface.
     ("shards", 1300),

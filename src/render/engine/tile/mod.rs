@@ -171,7 +171,7 @@ impl Tile {
         if let Some(partial_pass) = &self.partial_pass {
             sampler.pixels.extend_from_slice(&partial_pass.pixels);
         } else {
-            let partial_pass = (!is_last).then(|| self.partial_pass());
+            let partial_pass = (!is_last).then(|| self.start_partial_pass());
             self.each_pixel(size, step.spacing(), |tile, pixel| {
                 let at = tile.index(pixel);
                 let is_selected = selection.is_none_or(|selection| selection.has(pixel));

@@ -21,7 +21,7 @@ impl Tile {
     }
 
     /// Stores the pixels as they are.
-    pub(super) fn partial_pass(&self) -> Box<PartialPass> {
+    pub(super) fn start_partial_pass(&self) -> Box<PartialPass> {
         let memory = self.memory.as_ref();
         Box::new(PartialPass {
             pixels: Vec::new(),

@@ -12,7 +12,7 @@ use crate::{Language, Lowered, Source};
 use scene::{Meshes, Scene};
 
 /// The example of the course.
-const EXAMPLE: &str = include_str!("../../../scenes/spheres.xml");
+const EXAMPLE: &str = include_str!("../../../../scenes/spheres.xml");
 
 /// A camera with a position.
 const CAMERA: &str = "<camera><position z='5'/><target/></camera>";
