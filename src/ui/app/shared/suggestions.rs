@@ -22,7 +22,7 @@ pub struct Suggestions {
     judged: Option<u64>,
 }
 
-/// SettingSearch of what mends the preview.
+/// Trials of what mends the preview.
 #[derive(Debug)]
 pub(crate) struct RunningTrials {
     pub(crate) next: SettingSearch,
