@@ -79,7 +79,7 @@ fn times(
         denoise: false,
         numbers: None,
     };
-    let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
+    let prepared = PreparedScene::new(&job, &|| false).expect("nothing cancels");
     let subject = Subject {
         source,
         scene,
@@ -93,7 +93,7 @@ fn times(
             (number / 20) * size.height / 15,
         ];
         let begun = Instant::now();
-        let explained = prepared.query().explain(pixel, 0, || false);
+        let explained = prepared.query().explain(pixel, 0, &|| false);
         let explained = explained.expect("the pixel is in the picture");
         record.push(begun.elapsed());
         let begun = Instant::now();

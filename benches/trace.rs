@@ -139,7 +139,7 @@ fn row(name: &str, language: Language, text: &str, cores: usize) {
         .iter()
         .map(|object| object.shape.bounds())
         .collect();
-    let (build, bvh) = median(|| Bvh::build(&boxes, || false).expect("nothing cancels"));
+    let (build, bvh) = median(|| Bvh::build(&boxes, &|| false).expect("nothing cancels"));
     drop(boxes);
     let bytes = resident().saturating_sub(before) / scene.objects.len();
     drop((source, bvh));
@@ -175,11 +175,11 @@ fn mesh(name: &str, cores: usize) {
         let boxes: Vec<_> = triangles
             .map(|number| mesh.triangle_bounds(number))
             .collect();
-        let bvh = Bvh::build(&boxes, || false).expect("nothing cancels");
+        let bvh = Bvh::build(&boxes, &|| false).expect("nothing cancels");
         let runs = TriangleRuns::new(
             mesh,
             bvh.order(),
-            &bvh.runs(|| false).expect("nothing cancels"),
+            &bvh.runs(&|| false).expect("nothing cancels"),
             &|| false,
         );
         (bvh, runs.expect("nothing cancels"))

@@ -4,7 +4,7 @@ use arrayvec::ArrayVec;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use geometry::Aabb;
+use geometry::{Aabb, IsCancelled};
 
 use super::node::{Bounds, Child, Node, WIDTH};
 use super::split::{CHUNK, CancelCheck, Cancelled, Extent, Halves, Reference, by_area, by_count};
@@ -41,7 +41,7 @@ const UNCHECKED: usize = 1024;
 pub(super) fn build(
     count: usize,
     aabb: &(impl Fn(u32) -> Aabb + Sync),
-    cancelled: &(dyn Fn() -> bool + Sync),
+    cancelled: IsCancelled<'_>,
 ) -> Result<Bvh, Cancelled> {
     let cancel = CancelCheck(cancelled);
     cancel.check()?;

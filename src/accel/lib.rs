@@ -38,7 +38,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use geometry::lanes::{Eight, Simd};
-use geometry::{Aabb, Ray, Rays};
+use geometry::{Aabb, IsCancelled, Ray, Rays};
 use node::{Child, Node, WIDTH};
 
 /// A bounding volume hierarchy.
@@ -84,7 +84,7 @@ impl Bvh {
     ///
     /// An empty box is never visited. A box that is infinite or NaN, or too far from most others
     /// for `f32`, is visited by every ray. Boxes beyond the first 2³¹ are ignored.
-    pub fn build(boxes: &[Aabb], cancelled: impl Fn() -> bool + Sync) -> Option<Self> {
+    pub fn build(boxes: &[Aabb], cancelled: IsCancelled<'_>) -> Option<Self> {
         Self::over(boxes.len(), |index| boxes[index as usize], cancelled)
     }
 
@@ -92,7 +92,7 @@ impl Bvh {
     pub fn over(
         count: usize,
         aabb: impl Fn(u32) -> Aabb + Sync,
-        cancelled: impl Fn() -> bool + Sync,
+        cancelled: IsCancelled<'_>,
     ) -> Option<Self> {
         build::build(count, &aabb, &cancelled).ok()
     }
@@ -104,7 +104,7 @@ impl Bvh {
         &self,
         changed: &[u32],
         aabb: impl Fn(u32) -> Aabb,
-        cancelled: impl Fn() -> bool,
+        cancelled: IsCancelled<'_>,
     ) -> Option<Self> {
         refit::refit(self, changed, aabb, cancelled)
     }
@@ -118,7 +118,7 @@ impl Bvh {
         removed: Range<u32>,
         inserted: u32,
         aabb: impl Fn(u32) -> Aabb,
-        cancelled: impl Fn() -> bool,
+        cancelled: IsCancelled<'_>,
     ) -> Option<Self> {
         splice::splice(self, removed, inserted, aabb, cancelled)
     }
@@ -141,7 +141,7 @@ impl Bvh {
 
     /// The ranges of [`Bvh::order`] that are visited at once, in ascending order. `None` once
     /// `cancelled`, polled every few milliseconds, returns true.
-    pub fn runs(&self, cancelled: impl Fn() -> bool) -> Option<Vec<Range<usize>>> {
+    pub fn runs(&self, cancelled: IsCancelled<'_>) -> Option<Vec<Range<usize>>> {
         let mut children = 0;
         for (number, node) in self.nodes.iter().enumerate() {
             if polls_at(number) && cancelled() {

@@ -2,7 +2,7 @@
 
 use super::node::{Bounds, Child, Node, WIDTH};
 use super::{Bvh, polls_at};
-use geometry::Aabb;
+use geometry::{Aabb, IsCancelled};
 
 /// The maximum number of boxes moved at once: each is searched for among all.
 const MAX_MOVED: usize = 16;
@@ -16,7 +16,7 @@ pub(super) fn refit(
     bvh: &Bvh,
     changed: &[u32],
     aabb: impl Fn(u32) -> Aabb,
-    cancelled: impl Fn() -> bool,
+    cancelled: IsCancelled<'_>,
 ) -> Option<Bvh> {
     if !may_change(bvh, changed.len()) {
         return None;
@@ -71,7 +71,7 @@ pub(super) fn refit(
 }
 
 /// Copies part by part; `None` once `cancelled` returns true.
-pub(super) fn copied<T: Clone>(items: &[T], cancelled: impl Fn() -> bool) -> Option<Vec<T>> {
+pub(super) fn copied<T: Clone>(items: &[T], cancelled: IsCancelled<'_>) -> Option<Vec<T>> {
     /// Up to a few megabytes.
     const PART: usize = 1 << 14;
     let mut copy = Vec::with_capacity(items.len());
@@ -94,7 +94,7 @@ pub(super) struct Parents(Vec<(usize, usize)>);
 
 impl Parents {
     /// `None` once `cancelled` returns true.
-    pub(super) fn of(nodes: &[Node], cancelled: impl Fn() -> bool) -> Option<Self> {
+    pub(super) fn of(nodes: &[Node], cancelled: IsCancelled<'_>) -> Option<Self> {
         let mut places = vec![(0, 0); nodes.len()];
         for (number, node) in nodes.iter().enumerate() {
             if polls_at(number) && cancelled() {

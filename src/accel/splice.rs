@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::node::{Bounds, Child, Node, WIDTH};
 use super::refit::{Parents, copied, may_change};
 use super::{Bvh, RUN, polls_at};
-use geometry::Aabb;
+use geometry::{Aabb, IsCancelled};
 
 /// Changes of [`Bvh::order`]. Places are those before the changes.
 struct Changes {
@@ -22,7 +22,7 @@ pub(super) fn splice(
     removed: Range<u32>,
     inserted: u32,
     aabb: impl Fn(u32) -> Aabb,
-    cancelled: impl Fn() -> bool,
+    cancelled: IsCancelled<'_>,
 ) -> Option<Bvh> {
     let count = removed.len() + inserted as usize;
     if !may_change(bvh, count) {
@@ -148,7 +148,7 @@ impl Changes {
         &self,
         order: &[u32],
         renumbered: impl Fn(u32) -> u32,
-        cancelled: impl Fn() -> bool,
+        cancelled: IsCancelled<'_>,
     ) -> Option<Vec<u32>> {
         let mut new = Vec::with_capacity(order.len() + self.inserted.len());
         let mut removed = self.removed.iter().peekable();

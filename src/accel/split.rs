@@ -6,6 +6,7 @@
 use rayon::prelude::*;
 
 use super::node::Bounds;
+use geometry::IsCancelled;
 
 /// A box to be inserted into the tree, with its index: half a cache line.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +39,7 @@ pub(super) struct Cancelled;
 
 /// The caller's cancellation callback, as a check that fails. A trait object, since it is called
 /// once per chunk: with a type parameter, the builder would be compiled again for each caller.
-pub(super) struct CancelCheck<'a>(pub(super) &'a (dyn Fn() -> bool + Sync));
+pub(super) struct CancelCheck<'a>(pub(super) IsCancelled<'a>);
 
 impl CancelCheck<'_> {
     pub(super) fn check(&self) -> Result<(), Cancelled> {

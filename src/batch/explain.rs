@@ -45,8 +45,8 @@ fn try_explain(work: &Explain) -> Result<(), Error> {
     let job = work.tracing.job(scene, loaded.read.images, Frames::Last)?;
     let size = job.settings.size;
     check_pixel(work.pixel, size)?;
-    let prepared = PreparedScene::new(&job, || false).ok_or(Error::Stopped)?;
-    let explained = prepared.query().explain(work.pixel, work.sample, || false);
+    let prepared = PreparedScene::new(&job, &|| false).ok_or(Error::Stopped)?;
+    let explained = prepared.query().explain(work.pixel, work.sample, &|| false);
     let explanation = explained.ok_or(Error::Stopped)?;
     let subject = Subject {
         source: &loaded.source,

@@ -137,7 +137,7 @@ impl Text<'_> {
     /// Prints that a picture is black, and why most of it is.
     fn print_cause(&self, fault: Fault, job: &Job) {
         let size = job.settings.size;
-        let prepared = self.source.zip(PreparedScene::new(job, || false));
+        let prepared = self.source.zip(PreparedScene::new(job, &|| false));
         let found = prepared.and_then(|(source, prepared)| {
             let subject = Subject {
                 source,

@@ -45,7 +45,7 @@ pub fn cause(query: &Query, subject: &Subject<'_>) -> Option<Sentence> {
     let names = Names::new(subject);
     let mut kinds: Vec<Kind> = Vec::new();
     for pixel in pixels(subject.size) {
-        let explanation = query.explain(pixel, 0, || false)?;
+        let explanation = query.explain(pixel, 0, &|| false)?;
         let sees = explanation.rays[0].shading().is_some();
         let verdict = &explanation.verdicts[0].verdict;
         let is_away = matches!(verdict, Verdict::FacesAway { cosine: 0.0, .. });

@@ -64,8 +64,8 @@ fn explain(language: Language, text: &str, pixel: [u32; 2], how: How) -> Words {
         denoise: false,
         numbers: None,
     };
-    let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
-    let explained = prepared.query().explain(pixel, how.sample, || false);
+    let prepared = PreparedScene::new(&job, &|| false).expect("nothing cancels");
+    let explained = prepared.query().explain(pixel, how.sample, &|| false);
     let explanation = explained.expect("the pixel is in the picture");
     words(
         &explanation,

@@ -11,6 +11,7 @@
 //! [`Surface::leave`] starts a secondary ray a few ulps off the surface.
 
 mod aabb;
+mod cancelled;
 mod chart;
 mod cone;
 mod csg;
@@ -41,6 +42,7 @@ mod triangle;
 mod tests;
 
 pub use aabb::Aabb;
+pub use cancelled::IsCancelled;
 pub use chart::Chart;
 pub use cone::Cone;
 pub use csg::{Csg, Node, Operation};

@@ -1,6 +1,5 @@
 //! Tests of built trees.
 
-use std::cell::Cell;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::super::RUN;
@@ -8,8 +7,8 @@ use super::super::build::LEVELS;
 use super::super::node::{Bounds, Child, WIDTH};
 use super::super::split::{CancelCheck, Extent, Halves, Reference, by_area, by_count};
 use super::*;
-use geometry::Ray;
 use geometry::lanes::{Level, dispatch};
+use geometry::{IsCancelled, Ray};
 
 /// Checks a subtree: children's boxes lie in `outer` and contain their own boxes. Returns the
 /// number of levels.
@@ -163,20 +162,20 @@ fn a_tree_follows_boxes_that_move() {
     for turn in 0..19 {
         let moved = random.bits() as u32 % 20_000;
         boxes[moved as usize] = cube(3.0 * random.point(), random.point().abs());
-        let refitted = bvh.refitted(&[moved], |index| boxes[index as usize], || false);
+        let refitted = bvh.refitted(&[moved], |index| boxes[index as usize], &|| false);
         bvh = refitted.unwrap_or_else(|| panic!("box {turn} is not refitted"));
         check_tree(&bvh, &boxes);
     }
     assert!(
-        bvh.refitted(&[1], |index| boxes[index as usize], || false)
+        bvh.refitted(&[1], |index| boxes[index as usize], &|| false)
             .is_none()
     );
     let bvh = build(&boxes);
-    assert!(bvh.refitted(&[1], |_| Aabb::EMPTY, || false).is_none());
+    assert!(bvh.refitted(&[1], |_| Aabb::EMPTY, &|| false).is_none());
     let endless = cube(DVec3::ZERO, DVec3::INFINITY);
-    assert!(bvh.refitted(&[1], |_| endless, || false).is_none());
+    assert!(bvh.refitted(&[1], |_| endless, &|| false).is_none());
     assert!(
-        bvh.refitted(&[0; 17], |index| boxes[index as usize], || false)
+        bvh.refitted(&[0; 17], |index| boxes[index as usize], &|| false)
             .is_none()
     );
 }
@@ -205,13 +204,13 @@ fn a_tree_follows_boxes_that_come_and_go() {
             places,
             inserted as u32,
             |index| boxes[index as usize],
-            || false,
+            &|| false,
         );
         followed += u32::from(spliced.is_some());
         // Near a full leaf, a new tree is needed.
         bvh = spliced.unwrap_or_else(|| build(&boxes));
         check_tree(&bvh, &boxes);
-        let runs = bvh.runs(|| false).expect("never cancelled");
+        let runs = bvh.runs(&|| false).expect("never cancelled");
         assert!(runs.is_sorted_by_key(|run| run.start));
         assert!(runs.iter().all(|run| (1..=RUN).contains(&run.len())));
     }
@@ -227,7 +226,7 @@ fn a_tree_is_built_anew_where_boxes_have_no_room() {
     let mut room = 0;
     loop {
         boxes.insert(8, at);
-        let Some(spliced) = bvh.spliced(8..8, 1, |index| boxes[index as usize], || false) else {
+        let Some(spliced) = bvh.spliced(8..8, 1, |index| boxes[index as usize], &|| false) else {
             break;
         };
         check_tree(&spliced, &boxes);
@@ -237,7 +236,7 @@ fn a_tree_is_built_anew_where_boxes_have_no_room() {
     assert!(room < RUN, "{room}");
     let bvh = build(&boxes);
     let spliced = |places: std::ops::Range<u32>, inserted, aabb: Aabb| {
-        bvh.spliced(places, inserted, |_| aabb, || false).is_some()
+        bvh.spliced(places, inserted, |_| aabb, &|| false).is_some()
     };
     assert!(spliced(0..16, 0, at));
     assert!(!spliced(0..17, 0, at));
@@ -245,7 +244,7 @@ fn a_tree_is_built_anew_where_boxes_have_no_room() {
     assert!(!spliced(0..0, 1, cube(DVec3::ZERO, DVec3::INFINITY)));
     assert!(
         build(&boxes[..1000])
-            .spliced(0..1, 0, |_| at, || false)
+            .spliced(0..1, 0, |_| at, &|| false)
             .is_none(),
         "too few"
     );
@@ -262,21 +261,18 @@ fn changes_of_a_tree_can_be_cancelled() {
 }
 
 /// Whenever work is cancelled, it returns nothing and does not poll again.
-fn check_cancelling(is_done: impl Fn(&dyn Fn() -> bool) -> bool) {
-    let polls = Cell::new(0);
+fn check_cancelling(is_done: impl Fn(IsCancelled<'_>) -> bool) {
+    let polls = AtomicUsize::new(0);
     let cancelled_at = |last: usize| {
-        polls.set(0);
-        is_done(&|| {
-            polls.set(polls.get() + 1);
-            polls.get() == last
-        })
+        polls.store(0, Ordering::Relaxed);
+        is_done(&|| polls.fetch_add(1, Ordering::Relaxed) + 1 == last)
     };
     assert!(cancelled_at(usize::MAX));
-    let all = polls.get();
+    let all = polls.load(Ordering::Relaxed);
     assert!(1 < all, "{all}");
     for last in 1..=all {
         assert!(!cancelled_at(last), "{last} of {all}");
-        assert_eq!(polls.get(), last);
+        assert_eq!(polls.load(Ordering::Relaxed), last);
     }
 }
 
@@ -290,11 +286,11 @@ fn leaves_may_become_empty() {
     }
     let bvh = build(&boxes);
     boxes.drain(..16);
-    let spliced = bvh.spliced(0..16, 0, |index| boxes[index as usize], || false);
+    let spliced = bvh.spliced(0..16, 0, |index| boxes[index as usize], &|| false);
     let spliced = spliced.expect("few boxes are removed");
     check_tree(&spliced, &boxes);
     assert!(spliced.farthest < 10.0, "{}", spliced.farthest);
-    let runs = spliced.runs(|| false).expect("never cancelled");
+    let runs = spliced.runs(&|| false).expect("never cancelled");
     let lengths = runs.iter().map(ExactSizeIterator::len).sum::<usize>();
     assert_eq!(lengths, boxes.len());
 }
@@ -303,8 +299,8 @@ fn leaves_may_become_empty() {
 fn a_build_checks_often_and_stops_when_cancelled() {
     let boxes = random_boxes(&mut Random(6), 100_000, 1.0, DVec3::ZERO);
     let calls = AtomicUsize::new(0);
-    assert!(Bvh::build(&boxes, || true).is_none());
-    let whole = Bvh::build(&boxes, || {
+    assert!(Bvh::build(&boxes, &|| true).is_none());
+    let whole = Bvh::build(&boxes, &|| {
         calls.fetch_add(1, Ordering::Relaxed);
         false
     });
@@ -319,7 +315,7 @@ fn a_build_checks_often_and_stops_when_cancelled() {
                 .is_err()
         };
         assert!(
-            Bvh::build(&boxes, cancelled).is_none(),
+            Bvh::build(&boxes, &cancelled).is_none(),
             "after {checks} checks"
         );
     }
@@ -336,7 +332,7 @@ fn runs_are_the_leaves_in_order() {
         let mut boxes = random_boxes(&mut random, count, 1.0, DVec3::ZERO);
         boxes.extend([infinite; 3]);
         let bvh = build(&boxes);
-        let runs = bvh.runs(|| false).expect("never cancelled");
+        let runs = bvh.runs(&|| false).expect("never cancelled");
         let joined: Vec<usize> = runs.iter().cloned().flatten().collect();
         let all: Vec<usize> = (0..bvh.order().len()).collect();
         assert_eq!(joined, all);

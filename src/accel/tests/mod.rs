@@ -33,7 +33,7 @@ impl Random {
 }
 
 fn build(boxes: &[Aabb]) -> Bvh {
-    Bvh::build(boxes, || false).expect("never cancelled")
+    Bvh::build(boxes, &|| false).expect("never cancelled")
 }
 
 fn cube(centre: DVec3, half: DVec3) -> Aabb {

@@ -7,6 +7,7 @@ use rayon::iter::repeat_n;
 use rayon::prelude::*;
 
 use super::{Several, Simd, WIDTH};
+use crate::IsCancelled;
 
 /// Things filled in by one thread at a time.
 const CHUNK: usize = 1 << 12;
@@ -36,7 +37,7 @@ impl<T: Copy + Default + Send, const N: usize> Rows<T, N> {
     pub fn new(
         runs: &[Range<usize>],
         numbers: impl Fn(usize) -> [T; N] + Sync,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
     ) -> Option<Self> {
         let count = runs.last().map_or(0, |run| run.end);
         let mut rows = Vec::with_capacity(N * count + WIDTH);

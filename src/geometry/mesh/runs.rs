@@ -12,9 +12,9 @@
 use std::ops::Range;
 
 use super::{Mesh, MeshLine};
-use crate::Hit;
 use crate::lanes::{Rows, Run, Several, Simd, Singles, each_bit};
 use crate::triangle::Roughly;
+use crate::{Hit, IsCancelled};
 
 /// Three coordinates of three vertices.
 const NUMBERS: usize = 9;
@@ -39,7 +39,7 @@ impl TriangleRuns {
         mesh: &Mesh,
         order: &[u32],
         runs: &[Range<usize>],
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
     ) -> Option<Self> {
         let numbers = |place: usize| {
             let [a, b, c] = mesh.vertices(order[place]);

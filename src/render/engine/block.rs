@@ -86,11 +86,11 @@ impl Block {
     /// Continues to `spp` samples of each pixel. Once the tracer is cancelled, ends after the last
     /// sample that all pixels have. Calls `keep` whenever this much time has passed since its last
     /// call.
-    pub(crate) fn trace<C: Fn() -> bool>(
+    pub(crate) fn trace(
         &mut self,
         spp: u32,
         shot: &FrameContext<'_>,
-        sampler: &mut PixelSampler<'_, C>,
+        sampler: &mut PixelSampler<'_>,
         (interval, keep): (Duration, impl Fn(&Self)),
     ) {
         let region = Blocks::of(shot.settings.traced().size()).region(self.number);

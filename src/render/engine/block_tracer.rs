@@ -15,6 +15,7 @@ use super::renderer::{Threads, pool};
 use crate::integrators::{FrameContext, LightComponent, MAPS, PhotonRules, Photons, Tracer};
 use crate::job::{Aov, Job};
 use crate::world::{World, WorldSettings};
+use geometry::IsCancelled;
 
 /// A scene prepared to be traced block by block on threads of its own.
 #[derive(Debug)]
@@ -32,7 +33,7 @@ impl BlockTracer {
     pub fn new(
         job: Job,
         threads: usize,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
     ) -> Result<Option<Self>, Refusal> {
         let pool = pool(Threads::Exactly(threads)).map_err(|error| Refusal::Threads {
             count: threads,
@@ -72,7 +73,7 @@ impl BlockTracer {
         blocks: impl Iterator<Item = Block> + Send,
         spp: u32,
         interval: Duration,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
         hand_over: impl Fn(Block) + Sync,
     ) {
         if let Some(photons) = &self.photons {
@@ -83,7 +84,7 @@ impl BlockTracer {
         }
         let shot = FrameContext::new(&self.world, &self.job.camera, self.job.settings);
         let new_sampler = || pixel_sampler(&shot, cancelled);
-        let trace = |sampler: &mut PixelSampler<'_, _>, mut block: Block| {
+        let trace = |sampler: &mut PixelSampler<'_>, mut block: Block| {
             if !cancelled() {
                 let keep = |block: &Block| hand_over(block.clone());
                 block.trace(spp, &shot, sampler, (interval, keep));
@@ -101,7 +102,7 @@ impl BlockTracer {
         mut blocks: Vec<Block>,
         spp: u32,
         interval: Duration,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
         hand_over: &(impl Fn(Block) + Sync),
     ) {
         let least = |blocks: &[Block]| blocks.iter().map(|block| block.samples).min();
@@ -113,7 +114,7 @@ impl BlockTracer {
             };
             let shot = FrameContext::new(&self.world, &self.job.camera, self.job.settings);
             let shot = shot.with_photons(Some(&maps));
-            let trace = |sampler: &mut PixelSampler<'_, _>, block: &mut Block| {
+            let trace = |sampler: &mut PixelSampler<'_>, block: &mut Block| {
                 block.trace(goal, &shot, sampler, (Duration::MAX, |_: &Block| {}));
             };
             let lacking = blocks.par_iter_mut().filter(|block| block.samples < goal);
@@ -129,10 +130,7 @@ impl BlockTracer {
 }
 
 /// What a thread traces blocks with. Its type is that of previews, so that they share the compiled code.
-fn pixel_sampler<'w>(
-    shot: &FrameContext<'w>,
-    cancelled: &'w (dyn Fn() -> bool + Sync),
-) -> PixelSampler<'w, &'w (dyn Fn() -> bool + Sync)> {
+fn pixel_sampler<'w>(shot: &FrameContext<'w>, cancelled: IsCancelled<'w>) -> PixelSampler<'w> {
     let settings = shot.settings;
     let tracer = Tracer::new(shot.world, settings.integrator, settings.depth, cancelled);
     let tracer = tracer

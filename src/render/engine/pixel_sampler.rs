@@ -4,8 +4,8 @@ use crate::integrators::{FrameContext, Sample, SampleResult, Tracer, first_hit};
 use scene::Rgb;
 
 /// A thread's tracer, with scratch space reused between tiles.
-pub(crate) struct PixelSampler<'w, C> {
-    pub(crate) tracer: Tracer<'w, C>,
+pub(crate) struct PixelSampler<'w> {
+    pub(crate) tracer: Tracer<'w>,
     /// Pixels to sample.
     pub(crate) pixels: Vec<[u32; 2]>,
     /// A sample of each pixel.
@@ -14,8 +14,8 @@ pub(crate) struct PixelSampler<'w, C> {
     pub(crate) seen: Vec<SampleResult>,
 }
 
-impl<'w, C: Fn() -> bool> PixelSampler<'w, C> {
-    pub(crate) fn new(tracer: Tracer<'w, C>) -> Self {
+impl<'w> PixelSampler<'w> {
+    pub(crate) fn new(tracer: Tracer<'w>) -> Self {
         Self {
             tracer,
             pixels: Vec::new(),

@@ -17,6 +17,7 @@ use crate::integrators::{FrameContext, PhotonRules, Photons};
 use crate::job::{Frames, Job};
 use crate::picture::Query;
 use crate::world::{Dependencies, World, WorldSettings};
+use geometry::IsCancelled;
 
 /// What the thread is asked for.
 pub(crate) enum Request {
@@ -206,10 +207,7 @@ fn trace<W: Fn() + Sync>(
 
 /// Waits for a picture to be recalled; `None` if there is none, or once `quit` returns true. A newer
 /// job does not end the wait, as it may continue the picture.
-fn await_checkpoint(
-    recalled: &Receiver<Checkpoint>,
-    quit: &(dyn Fn() -> bool + Sync),
-) -> Option<Checkpoint> {
+fn await_checkpoint(recalled: &Receiver<Checkpoint>, quit: IsCancelled<'_>) -> Option<Checkpoint> {
     while !quit() {
         match recalled.recv_timeout(POLL) {
             Ok(checkpoint) => return Some(checkpoint),

@@ -22,6 +22,7 @@ use super::integrators::{FrameContext, PhotonRules, Photons, Sample};
 use super::job::{Job, Settings};
 use super::picture::{DisplayTransform, Query, Tone};
 use super::world::{Projection, World, WorldSettings};
+use geometry::IsCancelled;
 use judge::Case;
 use scene::{Integrator, MAX_SPP};
 
@@ -43,7 +44,7 @@ pub struct PreparedScene {
 
 impl PreparedScene {
     /// Prepares the scene of a job; `None` once `cancelled` returns true.
-    pub fn new(job: &Job, cancelled: impl Fn() -> bool + Sync) -> Option<Self> {
+    pub fn new(job: &Job, cancelled: IsCancelled<'_>) -> Option<Self> {
         let scene = Arc::clone(&job.scene);
         let world = World::build(
             scene,
@@ -110,7 +111,7 @@ impl Query {
         &self,
         pixel: [u32; 2],
         sample: u32,
-        cancelled: impl Fn() -> bool,
+        cancelled: &dyn Fn() -> bool,
     ) -> Option<Explanation> {
         let world = self.world.upgrade()?;
         let settings = self.settings;
@@ -120,7 +121,7 @@ impl Query {
             Integrator::Path => path::record(&world, settings.depth, None, traced, cancelled)?,
             Integrator::Photon => {
                 let photons = self.photons.upgrade()?;
-                let map = photons.map_alone(&world, sample, &cancelled)?;
+                let map = photons.map_alone(&world, sample, cancelled)?;
                 path::record(&world, settings.depth, Some(&map), traced, cancelled)?
             }
         };

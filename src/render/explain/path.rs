@@ -31,7 +31,7 @@ pub(super) fn record(
     depth: u32,
     photons: Option<&PhotonMap>,
     sample: Sample,
-    cancelled: impl Fn() -> bool,
+    cancelled: &dyn Fn() -> bool,
 ) -> Option<(Rgb, Vec<TracedRay>)> {
     let mut trace = Trace {
         probe: Probe::new(world, depth, cancelled).with_photons(photons),
@@ -53,8 +53,8 @@ pub(super) fn record(
 }
 
 /// A wave of one path, and its record.
-struct Trace<'w, C> {
-    probe: Probe<'w, C>,
+struct Trace<'w> {
+    probe: Probe<'w>,
     wave: PathWave,
     samples: [Sample; 1],
     seen: [SampleResult; 1],
@@ -68,7 +68,7 @@ enum Step {
     GoesOn(RayKind, Chosen),
 }
 
-impl<C: Fn() -> bool> Trace<'_, C> {
+impl Trace<'_> {
     /// Records the ray that the path is about to follow.
     fn begin(&mut self, kind: RayKind, chosen: Option<Chosen>) {
         let path = &self.wave.paths[0];
@@ -312,8 +312,8 @@ impl<C: Fn() -> bool> Trace<'_, C> {
 
 /// Describes a light at a vertex at a bounce, given the probability of its choice, the place at which it
 /// is sampled, and what it adds. `None` for ambient light.
-fn light_term<C>(
-    probe: &Probe<'_, C>,
+fn light_term(
+    probe: &Probe<'_>,
     (number, chance): (usize, f64),
     place: [f64; 2],
     (vertex, bounce): (&Vertex<'_>, u32),

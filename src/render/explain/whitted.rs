@@ -28,7 +28,7 @@ pub(super) fn record(
     world: &World,
     depth: u32,
     sample: Sample,
-    cancelled: impl Fn() -> bool,
+    cancelled: &dyn Fn() -> bool,
 ) -> Option<(Rgb, Vec<TracedRay>)> {
     let mut trace = Trace {
         probe: Probe::new(world, depth, cancelled),
@@ -47,8 +47,8 @@ pub(super) fn record(
 }
 
 /// A wave of one sample, and its record.
-struct Trace<'w, C> {
-    probe: Probe<'w, C>,
+struct Trace<'w> {
+    probe: Probe<'w>,
     wave: WhittedWave<'w>,
     samples: [Sample; 1],
     seen: [SampleResult; 1],
@@ -58,7 +58,7 @@ struct Trace<'w, C> {
     recorder: Recorder,
 }
 
-impl<C: Fn() -> bool> Trace<'_, C> {
+impl Trace<'_> {
     /// Traces the next ray; returns whether there was one, and `None` if cancelled.
     fn step(&mut self) -> Option<bool> {
         let Self {

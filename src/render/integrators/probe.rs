@@ -17,14 +17,13 @@ pub(crate) const RAY_BUDGET: u32 = 4096;
 /// Queries a world for radiance and counts the rays.
 ///
 /// Results are meaningless once `cancelled` returns true.
-#[derive(Debug)]
-pub(crate) struct Probe<'w, C> {
+pub(crate) struct Probe<'w> {
     pub(crate) world: &'w World,
     /// Whether to stop; polled every few hundred rays.
-    pub(crate) cancelled: C,
+    pub(crate) cancelled: &'w dyn Fn() -> bool,
     /// Maximum bounces.
     pub(crate) depth: u32,
-    /// The light to component.
+    /// The part of the light that counts.
     pub(crate) component: LightComponent,
     /// The photons of the current sample, if there are to be any.
     pub(crate) photon_map: Option<&'w PhotonMap>,
@@ -118,9 +117,9 @@ pub(crate) enum BounceStage {
     Last,
 }
 
-impl<'w, C> Probe<'w, C> {
+impl<'w> Probe<'w> {
     /// Creates a probe that follows rays up to bounce `depth`.
-    pub(crate) fn new(world: &'w World, depth: u32, cancelled: C) -> Self {
+    pub(crate) fn new(world: &'w World, depth: u32, cancelled: &'w dyn Fn() -> bool) -> Self {
         Self {
             world,
             cancelled,

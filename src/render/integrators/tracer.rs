@@ -11,19 +11,23 @@ use scene::Integrator;
 /// Traces samples, reusing scratch space and accumulating counts.
 ///
 /// Results are meaningless once `cancelled` returns true.
-#[derive(Debug)]
-pub(crate) struct Tracer<'w, C> {
+pub(crate) struct Tracer<'w> {
     integrator: Integrator,
     /// The photons of samples, if there are to be any.
     photon_maps: Option<&'w PhotonMaps>,
-    probe: Probe<'w, C>,
+    probe: Probe<'w>,
     wave: WhittedWave<'w>,
     path_wave: PathWave,
 }
 
-impl<'w, C: Fn() -> bool> Tracer<'w, C> {
+impl<'w> Tracer<'w> {
     /// Creates a tracer that follows rays up to bounce `depth`.
-    pub(crate) fn new(world: &'w World, integrator: Integrator, depth: u32, cancelled: C) -> Self {
+    pub(crate) fn new(
+        world: &'w World,
+        integrator: Integrator,
+        depth: u32,
+        cancelled: &'w dyn Fn() -> bool,
+    ) -> Self {
         Self {
             integrator,
             photon_maps: None,

@@ -10,7 +10,7 @@ use crate::sampling::{power_heuristic, warp};
 use crate::simd_level::level;
 use accel::Bvh;
 use geometry::lanes::{Eight, Lanes, Level, Row, Simd, Vector, WIDTH, dispatch, each_bit};
-use geometry::{Aabb, Ray, Rays};
+use geometry::{Aabb, IsCancelled, Ray, Rays};
 use scene::{Emitter, Falloff, FalloffRule, Light, Rgb};
 
 /// The light arriving at points, in each lane.
@@ -394,7 +394,7 @@ pub(crate) struct SphereLights {
 
 impl SphereLights {
     /// Collects the lights; `None` once `cancelled` returns true.
-    pub(crate) fn new(lights: &[Light], cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+    pub(crate) fn new(lights: &[Light], cancelled: IsCancelled<'_>) -> Option<Self> {
         let spheres = (0..).zip(lights.iter().map(luminous_sphere));
         let spheres = spheres.filter_map(|(number, sphere)| Some((number, sphere?)));
         let (numbers, all): (Vec<_>, Vec<_>) = spheres.unzip();

@@ -12,6 +12,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use crate::material::{LUMINANCE, Textures, environment_place};
+use geometry::IsCancelled;
 use scene::{Scene, Size, Tinted};
 
 /// Most cells of a grid along an edge; larger images are averaged.
@@ -53,7 +54,7 @@ impl Sky {
         scene: &Scene,
         textures: &Textures,
         known: Option<(&Arc<Self>, &Textures)>,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
     ) -> Option<Arc<Self>> {
         let environment = scene.setting.environment;
         if let Some((sky, before)) = known
@@ -110,7 +111,7 @@ impl Grid {
     fn build(
         environment: Tinted,
         textures: &Textures,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
     ) -> Option<Option<Self>> {
         let filling = textures.filling_image(environment);
         let fills = filling.is_some_and(|size| size.width.max(size.height) <= MOST_CELLS_ACROSS);

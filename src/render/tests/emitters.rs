@@ -11,7 +11,7 @@ use scene::{Faces, Highlight, Image};
 
 /// The means of a ray's radiance over `samples`, one for each of 64 seeds.
 pub(super) fn means(world: &World, depth: u32, ray: Ray, samples: u32) -> Vec<f64> {
-    let mut tracer = Tracer::new(world, Integrator::Path, depth, || false);
+    let mut tracer = Tracer::new(world, Integrator::Path, depth, &|| false);
     let mut mean = |seed| {
         let each = (0..samples).map(|index| {
             let sample = Sample {

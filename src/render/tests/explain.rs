@@ -81,7 +81,7 @@ fn traced(job: &Job, world: &World, pixel: [u32; 2], index: u32) -> Rgb {
     } = job.settings;
     let trace = |world: &World| {
         let mut seen = Vec::new();
-        Tracer::new(world, integrator, depth, || false).trace(&samples, &mut seen);
+        Tracer::new(world, integrator, depth, &|| false).trace(&samples, &mut seen);
         seen
     };
     let seen = trace(world);
@@ -96,7 +96,7 @@ fn traced(job: &Job, world: &World, pixel: [u32; 2], index: u32) -> Rgb {
     let place = place.expect("the pixel is in its row");
     let radiance = seen[place].radiance;
     if integrator == Integrator::Path {
-        let alone = radiance_alone(&mut Probe::new(world, depth, || false), &samples[place]);
+        let alone = radiance_alone(&mut Probe::new(world, depth, &|| false), &samples[place]);
         assert_eq!(bits(alone), bits(radiance));
     }
     radiance
@@ -143,7 +143,7 @@ fn check_scene(path: &Path, integrator: Integrator) {
 
 fn check_samples(job: &Job, name: &str) {
     let integrator = job.settings.integrator;
-    let prepared = PreparedScene::new(job, || false).expect("nothing cancels");
+    let prepared = PreparedScene::new(job, &|| false).expect("nothing cancels");
     let query: &Query = prepared.query();
     let world = query.world.upgrade().expect("it is prepared");
     let Size { width, height } = job.settings.size;
@@ -157,7 +157,7 @@ fn check_samples(job: &Job, name: &str) {
         let index = [0, 1, 2, 7, 15][number % 5];
         let context = format!("{name} {pixel:?} {index} {integrator:?}");
         let explanation = query
-            .explain(pixel, index, || false)
+            .explain(pixel, index, &|| false)
             .expect("it is prepared");
         let expected = traced(job, &world, pixel, index);
         assert_eq!(bits(explanation.radiance), bits(expected), "{context}");
@@ -192,10 +192,10 @@ fn explanations_choose_the_light_that_the_picture_chose() {
         };
         let job = job_of((scene, Images::default()), Integrator::Path);
         check_samples(&job, "lamps");
-        let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
+        let prepared = PreparedScene::new(&job, &|| false).expect("nothing cancels");
         let mut chosen = 0;
         for index in 0..16 {
-            let explained = prepared.query().explain([20, 15], index, || false);
+            let explained = prepared.query().explain([20, 15], index, &|| false);
             let rays = explained.expect("it is prepared").rays;
             let lights = &rays[0].shading().expect("it hits the ball").lights;
             let chances: Vec<_> = lights.iter().map(|term| term.chance).collect();
@@ -229,10 +229,10 @@ fn ball() -> Scene {
 #[test]
 fn densities_of_a_path_are_those_of_its_lobes() {
     let job = job_of((ball(), Images::default()), Integrator::Path);
-    let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
+    let prepared = PreparedScene::new(&job, &|| false).expect("nothing cancels");
     let mut scattered = 0;
     for index in 0..40 {
-        let explained = prepared.query().explain([20, 15], index, || false);
+        let explained = prepared.query().explain([20, 15], index, &|| false);
         let rays = explained.expect("it is prepared").rays;
         for pair in rays.windows(2) {
             let [from, to] = pair else { continue };
@@ -273,10 +273,10 @@ fn roulette_begins_earlier_where_light_is_sampled_at_random() {
         };
         *radius = size;
         let job = job_of((scene, Images::default()), Integrator::Path);
-        let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
+        let prepared = PreparedScene::new(&job, &|| false).expect("nothing cancels");
         let mut survivals = Vec::new();
         for index in 0..400 {
-            let explained = prepared.query().explain([20, 15], index, || false);
+            let explained = prepared.query().explain([20, 15], index, &|| false);
             for pair in explained.expect("it is prepared").rays.windows(2) {
                 let survival = pair[1].chosen.expect("it is scattered").survival;
                 let throughput = 0.1 * pair[0].weight.x;
@@ -294,11 +294,11 @@ fn roulette_begins_earlier_where_light_is_sampled_at_random() {
 fn rays_over_the_budget_are_recorded() {
     let mut job = job_of((splitting_glass(), Images::default()), Integrator::Whitted);
     job.settings.depth = 30;
-    let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
+    let prepared = PreparedScene::new(&job, &|| false).expect("nothing cancels");
     let world = prepared.query().world.upgrade().expect("it is prepared");
     let Size { width, height } = job.settings.size;
     let pixel = [width / 2 + 1, height / 2 + 1];
-    let explained = prepared.query().explain(pixel, 0, || false);
+    let explained = prepared.query().explain(pixel, 0, &|| false);
     let explained = explained.expect("it is prepared");
     assert_eq!(bits(sum(&explained)), bits(traced(&job, &world, pixel, 0)));
     let is_over = |ray: &&TracedRay| matches!(ray.end, RayEnd::OverBudget);
@@ -326,8 +326,8 @@ fn lights_with_a_size_are_weighted_by_both_densities() {
     let mut job = job_of((scene, Images::default()), Integrator::Path);
     job.camera.eye = DVec3::new(0.0, 0.0, 1.0);
     job.camera.target = DVec3::ZERO;
-    let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
-    let explained = prepared.query().explain([100, 75], 1, || false);
+    let prepared = PreparedScene::new(&job, &|| false).expect("nothing cancels");
+    let explained = prepared.query().explain([100, 75], 1, &|| false);
     let rays = explained.expect("it is prepared").rays;
     let shading = rays[0].shading().expect("the plane");
     let densities = shading.lights[0].densities.expect("it has a size");
@@ -358,7 +358,7 @@ fn frames_can_be_asked_about_their_pixels() {
     let frame = finish(&renderer, &woken, generation);
     let query = frame.query.as_ref().expect("it was traced");
     let explained = query
-        .explain([20, 15], 0, || false)
+        .explain([20, 15], 0, &|| false)
         .expect("it is prepared");
     let value = frame.values[15 * 40 + 20];
     assert_eq!(explained.radiance.as_vec3().to_array(), value);

@@ -87,7 +87,7 @@ fn lights_fade_by_the_square_where_their_own_terms_do_not() {
             let world = world.expect("nothing cancels the building");
             let sample = centred(ray([0.5, 0.0, 0.05], [0.0; 3]), f64::INFINITY);
             for integrator in Integrator::ALL {
-                let mut tracer = Tracer::new(&world, integrator, 0, || false);
+                let mut tracer = Tracer::new(&world, integrator, 0, &|| false);
                 let seen = tracer.radiance(&sample).radiance.x;
                 assert_near(seen, expected, 1e-12 * expected);
                 assert!(seen.is_finite(), "{case}");

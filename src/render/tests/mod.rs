@@ -52,7 +52,7 @@ use scene::{
     Meshes, Object, Pattern, Rendering, Rgb, Scene, Setting, Side, Size, Texture, Tinted, Transfer,
 };
 
-impl<C: Fn() -> bool> Tracer<'_, C> {
+impl Tracer<'_> {
     /// Radiance along one camera ray.
     fn radiance(&mut self, sample: &Sample) -> SampleResult {
         let mut seen = Vec::new();
@@ -233,8 +233,8 @@ fn ray(origin: [f64; 3], toward: [f64; 3]) -> Ray {
 }
 
 /// Creates a Whitted tracer.
-fn tracer(world: &World, depth: u32) -> Tracer<'_, impl Fn() -> bool> {
-    Tracer::new(world, Integrator::Whitted, depth, || false)
+fn tracer(world: &World, depth: u32) -> Tracer<'_> {
+    Tracer::new(world, Integrator::Whitted, depth, &|| false)
 }
 
 /// The sample of a ray at the centre of all distributions.

@@ -11,7 +11,7 @@ use scene::Emitter;
 /// The means of a ray's radiance over `samples`, one for each of `seeds` seeds.
 fn means(scene: Scene, depth: u32, ray: Ray, samples: u32, seeds: u32) -> Vec<Rgb> {
     let world = world(scene);
-    let mut tracer = Tracer::new(&world, Integrator::Path, depth, || false);
+    let mut tracer = Tracer::new(&world, Integrator::Path, depth, &|| false);
     let mut mean = |seed| {
         let each = (0..samples).map(|index| {
             let sample = Sample {

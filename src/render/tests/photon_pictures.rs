@@ -94,7 +94,7 @@ fn photons_that_are_kept_are_those_of_the_scene() {
 #[test]
 fn photons_are_explained() {
     let job = caustics();
-    let prepared = PreparedScene::new(&job, || false).expect("nothing cancels");
+    let prepared = PreparedScene::new(&job, &|| false).expect("nothing cancels");
     let world = world_by(&job.scene, PHOTONS);
     let rules = PhotonRules::of(&job.settings).expect("it has photons");
     let photons = Photons::build(&world, rules, None, &|| false).expect("nothing cancels");
@@ -106,14 +106,14 @@ fn photons_are_explained() {
     for (x, y, index) in
         (0..40).flat_map(|x| (0..30).map(move |y| (x, y, if x == 7 { y / 9 } else { 0 })))
     {
-        let explanation = prepared.query().explain([x, y], index, || false);
+        let explanation = prepared.query().explain([x, y], index, &|| false);
         let explanation = explanation.expect("it is prepared");
         let mut samples = Vec::new();
         shot.samples(&[[x, y]], index, &mut samples);
-        let tracer = Tracer::new(&world, Integrator::Photon, job.settings.depth, || false);
+        let tracer = Tracer::new(&world, Integrator::Photon, job.settings.depth, &|| false);
         let seen = tracer.with_photons(Some(&maps)).radiance(&samples[0]);
         assert_eq!(explanation.radiance, seen.radiance, "{x} {y} {index}");
-        let probe = Probe::new(&world, job.settings.depth, || false);
+        let probe = Probe::new(&world, job.settings.depth, &|| false);
         let alone = radiance_alone(&mut probe.with_photons(maps.get(index)), &samples[0]);
         assert_eq!(alone, seen.radiance, "{x} {y} {index}");
         let sum = |sum, ray: &TracedRay| sum + ray.contribution;

@@ -37,7 +37,7 @@ fn mean_of(
     (samples, seed): (u32, u32),
 ) -> Rgb {
     let integrator = maps.map_or(Integrator::Path, |_| Integrator::Photon);
-    let tracer = Tracer::new(world, integrator, depth, || false);
+    let tracer = Tracer::new(world, integrator, depth, &|| false);
     let mut tracer = tracer.with_photons(maps);
     let mut sum = Rgb::ZERO;
     for (number, &ray) in (0..).zip(rays) {

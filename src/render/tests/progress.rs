@@ -342,7 +342,8 @@ fn cancellation_skips_remaining_samples() {
     let sample = centred(ray([0.0; 3], [0.0, 0.3, 1.0]), f64::INFINITY);
     for integrator in [Integrator::Whitted, Integrator::Path] {
         let asked = Cell::new(false);
-        let mut tracer = Tracer::new(&inside, integrator, 8, || asked.replace(true));
+        let is_cancelled = || asked.replace(true);
+        let mut tracer = Tracer::new(&inside, integrator, 8, &is_cancelled);
         tracer.trace(&[sample; 100], &mut Vec::new());
         let rays = tracer.counts().rays;
         assert!((1..=200).contains(&rays), "{integrator:?}: {rays}");
@@ -361,7 +362,8 @@ fn cancellation_skips_remaining_lights() {
     for integrator in [Integrator::Whitted, Integrator::Path] {
         // Continues at the first poll only.
         let asked = Cell::new(false);
-        let mut tracer = Tracer::new(&world, integrator, 0, || asked.replace(true));
+        let is_cancelled = || asked.replace(true);
+        let mut tracer = Tracer::new(&world, integrator, 0, &is_cancelled);
         tracer.radiance(&centred(ray([0.0, 0.0, 5.0], [0.0; 3]), f64::INFINITY));
         assert!((2..300).contains(&tracer.counts().rays), "{integrator:?}");
     }

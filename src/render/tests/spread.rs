@@ -18,7 +18,7 @@ fn mean_by(
     let scene = Arc::new(xml(scene));
     let world = World::build(scene, &Images::default(), rules, None, &|| false);
     let world = world.expect("nothing cancels the building");
-    let mut tracer = Tracer::new(&world, integrator, 1, || false);
+    let mut tracer = Tracer::new(&world, integrator, 1, &|| false);
     let each = (0..samples).map(|index| {
         let sample = Sample {
             sampler: Sampler::new(0, 0, index, 0),

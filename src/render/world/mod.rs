@@ -41,8 +41,8 @@ use super::material::{Textures, environment_place};
 use super::simd_level::level;
 use crate::light::light_sphere;
 use accel::{Bvh, RUN};
-use geometry::Ray;
 use geometry::lanes::Level;
+use geometry::{IsCancelled, Ray};
 use scene::{FalloffRule, GlossRule, Images, Integrator, Light, Object, Objects, Rgb, Scene};
 
 /// Up to this many objects are intersected without a tree. Measured with single rays: with two
@@ -84,7 +84,7 @@ fn sampled(
     (scene, lights, textures): (&Scene, &[Light], &Textures),
     previous: Option<&World>,
     known: Option<(&World, &[u32])>,
-    cancelled: &(dyn Fn() -> bool + Sync),
+    cancelled: IsCancelled<'_>,
 ) -> Option<Sampled> {
     let sky = previous.map(|world| (&world.sky, &world.textures));
     let sky = Sky::build(scene, textures, sky, cancelled)?;
@@ -160,7 +160,7 @@ impl World {
         images: &Images,
         settings: WorldSettings,
         previous: Option<&Self>,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
     ) -> Option<Self> {
         let textures = Textures::new(&scene.textures, images);
         let ambient = scene.ambient_light();
@@ -348,7 +348,7 @@ fn opaque_meshes(scene: &Scene) -> Vec<bool> {
 fn replaced(
     before: &Objects,
     after: &Objects,
-    cancelled: &(dyn Fn() -> bool + Sync),
+    cancelled: IsCancelled<'_>,
 ) -> Option<(Range<u32>, u32)> {
     /// The maximum number of objects removed or inserted.
     const MOST_REPLACED: usize = 16;
@@ -377,7 +377,7 @@ fn replaced(
 /// shapes compared then count as different, which ends the comparison.
 fn differs_or_cancelled<'c>(
     compared: &'c Cell<usize>,
-    cancelled: &'c (dyn Fn() -> bool + Sync),
+    cancelled: IsCancelled<'c>,
 ) -> impl Fn(&Object, &Object) -> bool + Copy + 'c {
     move |a, b| {
         let number = compared.replace(compared.get() + 1);
@@ -387,11 +387,7 @@ fn differs_or_cancelled<'c>(
 
 /// Returns the objects whose shapes differ; `None` if too many, or if their counts differ, or once
 /// `cancelled` returns true.
-fn changed_shapes(
-    a: &Objects,
-    b: &Objects,
-    cancelled: &(dyn Fn() -> bool + Sync),
-) -> Option<Vec<u32>> {
+fn changed_shapes(a: &Objects, b: &Objects, cancelled: IsCancelled<'_>) -> Option<Vec<u32>> {
     /// Beyond this many changes a tree is rebuilt.
     const MOST_CHANGED: usize = 32;
     if a.len() != b.len() {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use geometry::lanes::{Eight, Four, Lanes, Rows, Run, Several, Simd, SimdMask, Vector, bits};
-use geometry::{Ray, Rays, Shape, Solid, Sphere, may_meet};
+use geometry::{IsCancelled, Ray, Rays, Shape, Solid, Sphere, may_meet};
 use scene::Objects;
 
 /// Three coordinates of the centre, and the radius.
@@ -38,7 +38,7 @@ impl Spheres {
         objects: &Objects,
         order: &[u32],
         runs: &[Range<usize>],
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
     ) -> Option<Self> {
         let numbers = |place: usize| match &objects[order[place] as usize].shape {
             Shape::Solid(Solid::Sphere(Sphere { centre, radius })) => {

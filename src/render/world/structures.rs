@@ -7,7 +7,9 @@ use rayon::prelude::*;
 
 use accel::{Bvh, Order};
 use geometry::lanes::{Eight, Lanes, Simd, WIDTH, mask};
-use geometry::{Hit, Hits, Instance, Mesh, MeshLine, Ray, Rays, Shape, TriangleRun, TriangleRuns};
+use geometry::{
+    Hit, Hits, Instance, IsCancelled, Mesh, MeshLine, Ray, Rays, Shape, TriangleRun, TriangleRuns,
+};
 use scene::Objects;
 
 /// Which hit of a mesh is searched for.
@@ -37,7 +39,7 @@ pub(crate) struct Structures {
 
 impl MeshTree {
     /// `None` once `cancelled` returns true.
-    fn build(mesh: &Mesh, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+    fn build(mesh: &Mesh, cancelled: IsCancelled<'_>) -> Option<Self> {
         let bounds = |triangle: u32| mesh.triangle_bounds(triangle);
         let bvh = Bvh::over(mesh.len(), bounds, cancelled)?;
         let runs = TriangleRuns::new(mesh, bvh.order(), &bvh.runs(cancelled)?, cancelled)?;
@@ -87,7 +89,7 @@ impl Structures {
     pub(crate) fn build(
         objects: &Objects,
         known: Option<&Self>,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
     ) -> Option<Self> {
         let mut structures = Self::default();
         for (object, instance) in instances(objects) {

@@ -29,7 +29,7 @@ pub(crate) fn explanations(send: impl Fn(Msg) + Send + 'static) -> io::Result<An
             let ((question, frame), work) = request;
             let Question { pixel, sample, .. } = question;
             let query = frame.query.as_ref();
-            let answer = query.and_then(|query| query.explain(pixel, sample, is_outdated));
+            let answer = query.and_then(|query| query.explain(pixel, sample, &is_outdated));
             if !is_outdated() {
                 send(Msg::Explained(question, answer.map(Box::new)));
             }
@@ -51,7 +51,7 @@ mod tests {
     #[test]
     fn the_last_question_is_answered() {
         let job = job(1);
-        let prepared = PreparedScene::new(&job, || false).expect("it is not cancelled");
+        let prepared = PreparedScene::new(&job, &|| false).expect("it is not cancelled");
         let size = job.settings.size;
         let mut frame = frame_of(size, vec![NO_OBJECT; size.pixels()]);
         frame.query = Some(prepared.query().clone());

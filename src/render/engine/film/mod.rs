@@ -19,6 +19,7 @@ use crate::integrators::{Counts, FrameContext, LightComponent, MAPS, PhotonRules
 use crate::job::{Aov, Frames, Job, Settings};
 use crate::picture::{DisplayTransform, Excess, Overexposure, Tone, UNKNOWN, denoise, tone};
 use crate::world::Dependencies;
+use geometry::IsCancelled;
 pub(crate) use raster::Raster;
 use scene::{Integrator, LEAST_ADAPTIVE_SPP, Rgb, Size};
 
@@ -287,7 +288,7 @@ impl Film {
         tiles: Range<usize>,
         (step, part): (&Step, Range<u32>),
         shot: &FrameContext<'_>,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
     ) -> Counts {
         let (size, shape, remembers) = (self.size, self.shape, self.remembers);
         let selection = self.selection.as_ref();
@@ -361,13 +362,13 @@ impl Film {
     /// Converts the pixels traced so far, on the current thread pool; while only a coarse grid is
     /// traced, each pixel shows the nearest grid point up and to the left. All tiles must be begun.
     /// `None` once `cancelled` returns true, or if memory is short.
-    pub(crate) fn develop(&self, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Raster> {
+    pub(crate) fn develop(&self, cancelled: IsCancelled<'_>) -> Option<Raster> {
         let room = Raster::with_room(self.size.pixels(), Frames::Live, self.remembers);
         self.develop_in(room.ok()?, cancelled)
     }
 
     /// Like [`Film::develop`], but only once, with the memory reserved.
-    pub(crate) fn finish(&mut self, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Raster> {
+    pub(crate) fn finish(&mut self, cancelled: IsCancelled<'_>) -> Option<Raster> {
         let room = std::mem::take(&mut self.room);
         let mut raster = self.develop_in(room, cancelled)?;
         raster.overexposure = self.overexposure();
@@ -397,11 +398,7 @@ impl Film {
         Some(variances)
     }
 
-    fn develop_in(
-        &self,
-        mut raster: Raster,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Raster> {
+    fn develop_in(&self, mut raster: Raster, cancelled: IsCancelled<'_>) -> Option<Raster> {
         raster.range = self.range();
         let tone = Tone::of(self.aov, self.display, raster.range);
         let value = |tile: &Tile, at| tile.value(at, self.spp, self.aov);

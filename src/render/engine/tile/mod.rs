@@ -154,12 +154,12 @@ impl Tile {
 
     /// Takes a step, or one of its parts after the other, in those pixels that lack it, if they are
     /// selected.
-    pub(crate) fn advance<C: Fn() -> bool>(
+    pub(crate) fn advance(
         &mut self,
         size: Size,
         (step, part, selection): (&Step, Range<u32>, Option<&Selection>),
         shot: &FrameContext<'_>,
-        sampler: &mut PixelSampler<'_, C>,
+        sampler: &mut PixelSampler<'_>,
     ) {
         if sampler.tracer.is_cancelled() {
             return;
@@ -217,12 +217,7 @@ impl Tile {
     }
 
     /// Adds one sample to each of the given pixels.
-    fn sample<C: Fn() -> bool>(
-        &mut self,
-        index: u32,
-        shot: &FrameContext<'_>,
-        sampler: &mut PixelSampler<'_, C>,
-    ) {
+    fn sample(&mut self, index: u32, shot: &FrameContext<'_>, sampler: &mut PixelSampler<'_>) {
         sampler.sample(index, shot);
         for (&pixel, seen) in sampler.pixels.iter().zip(&sampler.seen) {
             let at = self.index(pixel);

@@ -19,7 +19,7 @@ const SMALLEST_IN_GAP: f64 = 1.0 / 8.0;
 
 /// The light that photons carry to a surface at a bounce, reflected along the path.
 #[inline(never)]
-pub(crate) fn caustics<C>(probe: &mut Probe<'_, C>, vertex: &Vertex<'_>, bounce: u32) -> Rgb {
+pub(crate) fn caustics(probe: &mut Probe<'_>, vertex: &Vertex<'_>, bounce: u32) -> Rgb {
     let Some(map) = probe.photon_map.filter(|map| !map.is_empty()) else {
         return Rgb::ZERO;
     };
@@ -59,8 +59,8 @@ pub(crate) fn caustics<C>(probe: &mut Probe<'_, C>, vertex: &Vertex<'_>, bounce:
 }
 
 /// The light of photons within a radius around a surface, each times a factor.
-fn gathered<C>(
-    probe: &Probe<'_, C>,
+fn gathered(
+    probe: &Probe<'_>,
     (map, radius): (&PhotonMap, f64),
     vertex: &Vertex<'_>,
     bounce: u32,

@@ -52,8 +52,8 @@ pub(crate) struct EmitterArrival {
 }
 
 /// Adds the light of objects that emit light, and of the environment, as far as it is sampled.
-pub(super) fn add_emitters<C>(
-    probe: &mut Probe<'_, C>,
+pub(super) fn add_emitters(
+    probe: &mut Probe<'_>,
     vertices: &[Vertices<'_, '_>],
     sums: &mut [VertexLight],
     (draws, samples): (&mut Draws, &mut EmitterSamples),
@@ -77,7 +77,7 @@ pub(super) fn add_emitters<C>(
 /// Whether objects that emit light, or the environment, are sampled at a surface that is lit. Not at
 /// the last bounce, since emission counts as the bounce that reaches it.
 #[inline]
-pub(crate) fn samples_emitters<C>(probe: &Probe<'_, C>, vertex: &Vertex<'_>, bounce: u32) -> bool {
+pub(crate) fn samples_emitters(probe: &Probe<'_>, vertex: &Vertex<'_>, bounce: u32) -> bool {
     let goes_on = bounce < probe.depth && bounce + 1 < RAY_BUDGET;
     probe.world.has_emitters
         && goes_on
@@ -86,8 +86,8 @@ pub(crate) fn samples_emitters<C>(probe: &Probe<'_, C>, vertex: &Vertex<'_>, bou
 }
 
 /// Adds the light of objects that emit light, in lanes.
-pub(crate) fn add_emitting_objects<C>(
-    probe: &mut Probe<'_, C>,
+pub(crate) fn add_emitting_objects(
+    probe: &mut Probe<'_>,
     (vertices, lanes): (&[Vertices<'_, '_>], &[u32]),
     sums: &mut [VertexLight],
     (draws, samples): (&mut Draws, &mut EmitterSamples),
@@ -107,8 +107,8 @@ pub(crate) fn add_emitting_objects<C>(
 }
 
 /// Adds the light of the environment, in lanes.
-pub(crate) fn add_sky<C>(
-    probe: &mut Probe<'_, C>,
+pub(crate) fn add_sky(
+    probe: &mut Probe<'_>,
     (vertices, lanes): (&[Vertices<'_, '_>], &[u32]),
     sums: &mut [VertexLight],
     (draws, samples): (&mut Draws, &mut EmitterSamples),
@@ -238,7 +238,7 @@ impl EmitterSamples {
     }
 
     /// Counts the shadow rays.
-    fn count<C>(&self, probe: &mut Probe<'_, C>, sums: &[VertexLight], seen: &mut [SampleResult]) {
+    fn count(&self, probe: &mut Probe<'_>, sums: &[VertexLight], seen: &mut [SampleResult]) {
         for ray in &self.rays {
             seen[sums[ray.at].path].rays += 1;
         }

@@ -97,8 +97,8 @@ impl LightRays<'_> {
 }
 
 /// Adds the light of all lights, in file order; of many lights, that of one at each surface.
-pub(super) fn add_lights<C: Fn() -> bool>(
-    probe: &mut Probe<'_, C>,
+pub(super) fn add_lights(
+    probe: &mut Probe<'_>,
     vertices: &[Vertices<'_, '_>],
     sums: &mut [VertexLight],
     (draws, samples): (&mut Draws, &mut LightSamples),
@@ -117,8 +117,8 @@ pub(super) fn add_lights<C: Fn() -> bool>(
 }
 
 /// Adds the light of the light with this index.
-pub(crate) fn add_light<C>(
-    probe: &mut Probe<'_, C>,
+pub(crate) fn add_light(
+    probe: &mut Probe<'_>,
     number: usize,
     vertices: &[Vertices<'_, '_>],
     sums: &mut [VertexLight],
@@ -142,8 +142,8 @@ pub(crate) fn add_light<C>(
 }
 
 /// Adds, at each surface that is lit, the light of one of many lights.
-pub(crate) fn add_one_of_many<C>(
-    probe: &mut Probe<'_, C>,
+pub(crate) fn add_one_of_many(
+    probe: &mut Probe<'_>,
     vertices: &[Vertices<'_, '_>],
     sums: &mut [VertexLight],
     (draws, samples): (&mut Draws, &mut LightSamples),
@@ -165,8 +165,8 @@ pub(crate) fn add_one_of_many<C>(
 
 /// Adds, at each surface, the light chosen there. All of them share a slot for the last blocker,
 /// and the kind of occlusion.
-fn add_chosen<C>(
-    probe: &mut Probe<'_, C>,
+fn add_chosen(
+    probe: &mut Probe<'_>,
     (vertices, numbers): (&[Vertices<'_, '_>], &[Fours]),
     sums: &mut [VertexLight],
     samples: &mut LightSamples,

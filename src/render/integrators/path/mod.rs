@@ -99,8 +99,8 @@ pub(crate) enum Continuation {
 
 /// Finds what a path's ray leads to, given the nearest object that it hits, and reduces the
 /// throughput by absorption up to there.
-pub(crate) fn classify_hit<C>(
-    probe: &Probe<'_, C>,
+pub(crate) fn classify_hit(
+    probe: &Probe<'_>,
     path: &mut Path,
     sample: &Sample,
     nearest: Option<Nearest>,
@@ -131,8 +131,8 @@ pub(crate) fn classify_hit<C>(
 
 /// Continues a path in a sampled direction, if there is one, the depth and the budget allow it
 /// and it survives Russian roulette by its numbers for the bounce.
-fn continue_path<C: Fn() -> bool>(
-    probe: &mut Probe<'_, C>,
+fn continue_path(
+    probe: &mut Probe<'_>,
     path: &mut Path,
     next: Option<BsdfSample>,
     [.., chance]: [f64; 4],
@@ -172,8 +172,8 @@ fn gathers(component: LightComponent, number: u32, path: &Path) -> bool {
 
 /// The density with which a path at a bounce goes on in a direction, per steradian; 0 at the last
 /// bounce, after which no BSDF sample can hit a light.
-pub(crate) fn density_of<C>(
-    probe: &Probe<'_, C>,
+pub(crate) fn density_of(
+    probe: &Probe<'_>,
     bsdf: &Bsdf<'_>,
     scattered: Scattered,
     bounce: u32,

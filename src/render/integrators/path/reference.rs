@@ -26,7 +26,7 @@ struct Unshadowed {
 }
 
 /// Estimates the radiance along a camera ray.
-pub(crate) fn radiance_alone<C: Fn() -> bool>(probe: &mut Probe<'_, C>, sample: &Sample) -> Rgb {
+pub(crate) fn radiance_alone(probe: &mut Probe<'_>, sample: &Sample) -> Rgb {
     let world = probe.world;
     let mut path = Path::new(sample);
     let mut radiance = Rgb::ZERO;
@@ -57,7 +57,7 @@ pub(crate) fn radiance_alone<C: Fn() -> bool>(probe: &mut Probe<'_, C>, sample: 
 }
 
 /// The radiance of a surface toward a path.
-fn local<C>(probe: &mut Probe<'_, C>, path: &Path, vertex: &Vertex<'_>, sampler: Sampler) -> Rgb {
+fn local(probe: &mut Probe<'_>, path: &Path, vertex: &Vertex<'_>, sampler: Sampler) -> Rgb {
     let world = probe.world;
     let bounce = path.bounce;
     let mut of_lights = Rgb::ZERO;
@@ -97,8 +97,8 @@ fn place_of(vertex: &Vertex<'_>) -> (DVec3, DVec3) {
 
 /// The light that a surface reflects of the light with this index, which was chosen with this
 /// probability. `place`, in the unit square, is where a light with a size is sampled.
-fn of_light<C>(
-    probe: &mut Probe<'_, C>,
+fn of_light(
+    probe: &mut Probe<'_>,
     (number, chance): (usize, f64),
     vertex: &Vertex<'_>,
     bounce: u32,
@@ -149,8 +149,8 @@ fn of_point_light(vertex: &Vertex<'_>, light: &Light, place: [f64; 2]) -> Option
 
 /// The light reflected from a light with a size, chosen with a probability and sampled at the given
 /// place.
-fn of_sphere_light<C>(
-    probe: &Probe<'_, C>,
+fn of_sphere_light(
+    probe: &Probe<'_>,
     (vertex, bounce): (&Vertex<'_>, u32),
     (light, sphere): (&Light, &SphereLight),
     chance: f64,
@@ -180,7 +180,7 @@ fn of_sphere_light<C>(
 }
 
 /// The light that a surface reflects of an object that emits light, chosen by numbers in 0..1.
-fn of_object<C>(probe: &Probe<'_, C>, vertex: &Vertex<'_>, bounce: u32, numbers: [f64; 4]) -> Rgb {
+fn of_object(probe: &Probe<'_>, vertex: &Vertex<'_>, bounce: u32, numbers: [f64; 4]) -> Rgb {
     let world = probe.world;
     let [u, v, ..] = numbers;
     let from = vertex.point.surface.point;
@@ -203,12 +203,7 @@ fn of_object<C>(probe: &Probe<'_, C>, vertex: &Vertex<'_>, bounce: u32, numbers:
 }
 
 /// The light that a surface reflects of the environment, chosen by numbers in 0..1.
-fn of_sky<C>(
-    probe: &mut Probe<'_, C>,
-    vertex: &Vertex<'_>,
-    bounce: u32,
-    [u, v, ..]: [f64; 4],
-) -> Rgb {
+fn of_sky(probe: &mut Probe<'_>, vertex: &Vertex<'_>, bounce: u32, [u, v, ..]: [f64; 4]) -> Rgb {
     let world = probe.world;
     let Some(toward) = world.sky.choose([u, v]) else {
         return Rgb::ZERO;
@@ -222,8 +217,8 @@ fn of_sky<C>(
 }
 
 /// The light that a surface reflects of what is emitted toward it along a ray, chosen with a density.
-fn of_emitter<C>(
-    probe: &Probe<'_, C>,
+fn of_emitter(
+    probe: &Probe<'_>,
     (vertex, bounce): (&Vertex<'_>, u32),
     (ray, by_light): (&Ray, f64),
     emitted: impl FnOnce() -> Option<Rgb>,

@@ -31,9 +31,9 @@ pub(crate) struct VertexLight {
 
 impl ShadowRays {
     /// Computes the transmittances of all rays, given the last simple object that occluded one.
-    pub(super) fn trace<C>(
+    pub(super) fn trace(
         &mut self,
-        probe: &mut Probe<'_, C>,
+        probe: &mut Probe<'_>,
         blocker: &mut Option<u32>,
         occlusion: Occlusion,
     ) {

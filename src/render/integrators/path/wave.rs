@@ -65,8 +65,8 @@ pub(crate) struct Departure {
 }
 
 /// Estimates the radiance along camera rays of samples with the same index.
-pub(crate) fn by_paths<C: Fn() -> bool>(
-    probe: &mut Probe<'_, C>,
+pub(crate) fn by_paths(
+    probe: &mut Probe<'_>,
     wave: &mut PathWave,
     samples: &[Sample],
     seen: &mut Vec<SampleResult>,
@@ -88,8 +88,8 @@ pub(crate) fn by_paths<C: Fn() -> bool>(
 }
 
 /// Follows each path to its next surface and on from there.
-fn bounce<C: Fn() -> bool>(
-    probe: &mut Probe<'_, C>,
+fn bounce(
+    probe: &mut Probe<'_>,
     wave: &mut PathWave,
     samples: &[Sample],
     seen: &mut [SampleResult],
@@ -127,8 +127,8 @@ fn bounce<C: Fn() -> bool>(
 }
 
 /// Follows the rays of the paths. What they find other than surfaces is added to `seen`.
-pub(crate) fn trace_rays<'w, C>(
-    probe: &mut Probe<'w, C>,
+pub(crate) fn trace_rays<'w>(
+    probe: &mut Probe<'w>,
     wave: &mut PathWave,
     samples: &[Sample],
     seen: &mut [SampleResult],
@@ -194,8 +194,8 @@ pub(crate) fn trace_rays<'w, C>(
 }
 
 /// Adds the light of photons at surfaces that are lit.
-pub(crate) fn add_caustics<C>(
-    probe: &mut Probe<'_, C>,
+pub(crate) fn add_caustics(
+    probe: &mut Probe<'_>,
     vertices: &[Vertices<'_, '_>],
     sums: &mut [VertexLight],
     bounce: u32,
@@ -213,8 +213,8 @@ pub(crate) fn add_caustics<C>(
 
 /// Continues a path from the surface in a lane of a batch, given the continuations by lobes there.
 #[inline(always)]
-pub(crate) fn shade_and_continue<C: Fn() -> bool>(
-    probe: &mut Probe<'_, C>,
+pub(crate) fn shade_and_continue(
+    probe: &mut Probe<'_>,
     (vertices, numbers, by_lobes): (&Vertices<'_, '_>, &Fours, &Continuations),
     lane: usize,
     sum: &VertexLight,
@@ -243,7 +243,7 @@ pub(crate) fn shade_and_continue<C: Fn() -> bool>(
 }
 
 /// The radiance of a surface that is lit toward a path.
-fn local<C>(probe: &Probe<'_, C>, path: &Path, vertex: &Vertex<'_>, sum: &VertexLight) -> Rgb {
+fn local(probe: &Probe<'_>, path: &Path, vertex: &Vertex<'_>, sum: &VertexLight) -> Rgb {
     let emission = if probe.component.glow(path.bounce) {
         emission(probe.world, path, vertex).0
     } else {

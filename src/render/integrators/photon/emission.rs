@@ -7,7 +7,7 @@ use crate::light::{falloff_shares, luminous_sphere, radiant_intensity};
 use crate::material::{Microfacets, strength};
 use crate::sampling::{Purpose, Sampler, warp};
 use crate::world::World;
-use geometry::{Aabb, Ray, Shape};
+use geometry::{Aabb, IsCancelled, Ray, Shape};
 use scene::{Emitter, Falloff, Highlight, Light, Material, Object, Rgb};
 
 /// Rows of cells in the projection map of a light, if there are few.
@@ -58,7 +58,7 @@ pub(crate) struct Emitted {
 impl Emission {
     /// Collects the lights of a world that emit photons toward mirrors and boundaries; `None` once
     /// `cancelled` returns true.
-    pub(crate) fn of(world: &World, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+    pub(crate) fn of(world: &World, cancelled: IsCancelled<'_>) -> Option<Self> {
         let lights = || {
             let lights = world.lights().iter();
             lights.filter_map(|light| Some((light, radiant_intensity(light)?)))

@@ -10,6 +10,7 @@ use super::{CHUNK, Emission, Emitted, PhotonMaps, PhotonRules, Photons, SEED, ra
 use crate::material::{Bsdf, transmitted};
 use crate::sampling::{Purpose, Sampler};
 use crate::world::World;
+use geometry::IsCancelled;
 use scene::MAX_SPP;
 
 impl Photons {
@@ -19,7 +20,7 @@ impl Photons {
         world: &World,
         rules: PhotonRules,
         known: Option<(&World, &Arc<Self>)>,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
     ) -> Option<Arc<Self>> {
         let serve = |(before, photons): &(&World, &Arc<Self>)| {
             photons.rules == rules
@@ -50,7 +51,7 @@ impl Photons {
         &self,
         world: &World,
         indices: Range<u32>,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
     ) -> Option<PhotonMaps> {
         let first = indices.start;
         let map = |index| {
@@ -70,7 +71,7 @@ impl Photons {
         &self,
         world: &World,
         index: u32,
-        cancelled: impl Fn() -> bool,
+        cancelled: &dyn Fn() -> bool,
     ) -> Option<Arc<PhotonMap>> {
         if let Some(map) = self.known(index) {
             return Some(map);
@@ -86,12 +87,7 @@ impl Photons {
     }
 
     /// Traces the photons of a map, in the order of their emission.
-    fn trace(
-        &self,
-        world: &World,
-        index: u32,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Vec<Photon>> {
+    fn trace(&self, world: &World, index: u32, cancelled: IsCancelled<'_>) -> Option<Vec<Photon>> {
         let chunks = (0..self.chunks()).into_par_iter();
         let chunks = chunks.map(|chunk| {
             let photons = self.chunk(world, index, chunk);

@@ -27,8 +27,8 @@ use wave::ShadedHit;
 ///
 /// Many samples are traced at once, one ray of each at a time, to form packets of rays and
 /// shadow rays. The order of summation within each sample does not depend on the others.
-pub(crate) fn by_whitted<'w, C: Fn() -> bool>(
-    probe: &mut Probe<'w, C>,
+pub(crate) fn by_whitted<'w>(
+    probe: &mut Probe<'w>,
     wave: &mut WhittedWave<'w>,
     samples: &[Sample],
     seen: &mut Vec<SampleResult>,
@@ -54,8 +54,8 @@ pub(crate) fn by_whitted<'w, C: Fn() -> bool>(
 }
 
 /// Finds the hits of the front's rays and shades them without lights.
-pub(crate) fn trace_front<'w, C>(
-    probe: &Probe<'w, C>,
+pub(crate) fn trace_front<'w>(
+    probe: &Probe<'w>,
     wave: &mut WhittedWave<'w>,
     samples: &[Sample],
     seen: &mut [SampleResult],
@@ -69,8 +69,8 @@ pub(crate) fn trace_front<'w, C>(
 
 /// Adds the light of the light with this index that the hits reflect; lights must be added in
 /// file order.
-pub(crate) fn add_light<C>(
-    probe: &mut Probe<'_, C>,
+pub(crate) fn add_light(
+    probe: &mut Probe<'_>,
     wave: &mut WhittedWave<'_>,
     number: usize,
     samples: &[Sample],
@@ -112,8 +112,8 @@ pub(crate) fn add_light<C>(
 }
 
 /// Adds the radiance of the hits to `seen` and prepares the next front.
-pub(crate) fn branch<C>(
-    probe: &Probe<'_, C>,
+pub(crate) fn branch(
+    probe: &Probe<'_>,
     wave: &mut WhittedWave<'_>,
     samples: &[Sample],
     seen: &mut [SampleResult],

@@ -9,8 +9,8 @@ use super::tree::Tree;
 use super::{Picked, strength};
 use crate::light::radiant_intensity;
 use crate::sampling::Fours;
-use geometry::Aabb;
 use geometry::lanes::{Row, Simd, Vector, WIDTH};
+use geometry::{Aabb, IsCancelled};
 use scene::{Emitter, Light};
 
 /// Up to this number of lights that fade with the square of the distance, each is sampled at every
@@ -35,7 +35,7 @@ impl ManyLights {
     pub(crate) fn build(
         lights: &[Light],
         known: Option<&Arc<Self>>,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
     ) -> Option<Arc<Self>> {
         let numbered = (0_u32..).zip(lights);
         let found = numbered.filter_map(|(number, light)| Some((number, reach(light)?)));

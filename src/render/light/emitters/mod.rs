@@ -23,7 +23,7 @@ use crate::sampling::Fours;
 use aim::{Aim, Flats};
 use cone::{Cone, Reach};
 use geometry::lanes::{Lanes, Row, Simd, Vector, WIDTH, bits, each_bit, mask};
-use geometry::{Hit, Instance, Patch, Ray, Shape};
+use geometry::{Hit, Instance, IsCancelled, Patch, Ray, Shape};
 pub(crate) use many::ManyLights;
 use scene::{Faces, Material, Object, Rgb, Scene, Tinted};
 use tree::Tree;
@@ -176,7 +176,7 @@ impl Emitters {
         scene: &Scene,
         textures: &Textures,
         known: Option<PreviousEmitters<'_>>,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
     ) -> Option<Arc<Self>> {
         let glows = glows(scene);
         if let Some(known) = known

@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use super::cone::{Cone, Reach};
 use super::{Picked, split};
+use geometry::IsCancelled;
 use geometry::lanes::{Eight, Lanes, Row, Simd, Vector, WIDTH, each_bit};
 
 /// From this depth on the tree halves the number of emitters at each node.
@@ -54,7 +55,7 @@ type At = (usize, usize);
 
 impl Tree {
     /// Builds the tree; `None` once `cancelled` returns true.
-    pub(crate) fn build(emitters: &[Reach], cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+    pub(crate) fn build(emitters: &[Reach], cancelled: IsCancelled<'_>) -> Option<Self> {
         let count = emitters.len();
         let mut tree = Self {
             nodes: Vec::with_capacity((2 * count).saturating_sub(1)),
@@ -81,7 +82,7 @@ impl Tree {
         emitters: &[Reach],
         order: &mut [u32],
         (place, depth): (usize, u32),
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
     ) -> Option<Reach> {
         if POLLED <= order.len() && cancelled() {
             return None;

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::integrators::{FrameContext, Guide, guide};
+use geometry::IsCancelled;
 
 /// Most samples of a pixel that its surfaces are averaged over: more change them little.
 const MOST_SAMPLES: u32 = 16;
@@ -23,7 +24,7 @@ impl Guides {
         &mut self,
         spp: u32,
         shot: &FrameContext<'_>,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: IsCancelled<'_>,
     ) -> bool {
         let size = shot.settings.traced().size();
         let integrator = shot.settings.integrator;

@@ -28,6 +28,7 @@ use self::mean::{Around, mean};
 use self::mix::{Kernel, mix};
 use self::plane::{Layout, Plane, stride};
 use crate::integrators::Guide;
+use geometry::IsCancelled;
 use geometry::lanes::Level;
 use scene::Size;
 
@@ -110,7 +111,7 @@ pub(crate) struct Noisy<'p> {
 
 impl Noisy<'_> {
     /// The values with less noise. Meaningless once `cancelled` returns true.
-    pub(crate) fn denoised(self, cancelled: &(dyn Fn() -> bool + Sync)) -> Vec<[f32; 3]> {
+    pub(crate) fn denoised(self, cancelled: IsCancelled<'_>) -> Vec<[f32; 3]> {
         if self.variances.iter().all(|&variance| variance == 0.0) {
             return self.values.to_vec();
         }

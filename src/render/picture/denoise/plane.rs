@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use geometry::IsCancelled;
 use geometry::lanes::WIDTH;
 
 /// Room on either side of a row: the farthest neighbours.
@@ -18,7 +19,7 @@ pub(super) struct Layout<'c> {
     /// Numbers in a row: whole vectors of pixels, and the room around.
     pub(super) stride: usize,
     /// Leaves planes unfinished once it returns true.
-    pub(super) cancelled: &'c (dyn Fn() -> bool + Sync),
+    pub(super) cancelled: IsCancelled<'c>,
 }
 
 /// The numbers in a row of this many pixels.
@@ -28,11 +29,7 @@ pub(super) fn stride(width: usize) -> usize {
 
 impl<'c> Layout<'c> {
     /// The layout of so many pixels in rows of this width.
-    pub(super) fn new(
-        width: usize,
-        pixels: usize,
-        cancelled: &'c (dyn Fn() -> bool + Sync),
-    ) -> Self {
+    pub(super) fn new(width: usize, pixels: usize, cancelled: IsCancelled<'c>) -> Self {
         Self {
             width,
             height: pixels / width,

@@ -211,7 +211,7 @@ impl Session {
         let asked = numbered(&self.under_way.questions, number);
         let (question, frame) = asked.ok_or("nothing is asked")?;
         let query = frame.query.as_ref().ok_or("the picture was not traced")?;
-        let answer = query.explain(question.pixel, question.sample, || false);
+        let answer = query.explain(question.pixel, question.sample, &|| false);
         Ok(Msg::Explained(*question, answer.map(Box::new)))
     }
 

@@ -10,7 +10,7 @@ use render::{Aov, Frame, NO_OBJECT, PreparedScene, Query};
 impl Session {
     /// A complete frame of what is traced, of this many samples, with the objects that are seen in it.
     pub(super) fn traced(&mut self, target: Target, spp: &str) -> Result<Msg, String> {
-        let prepared = PreparedScene::new(self.job(target)?, || false).ok_or("cancelled")?;
+        let prepared = PreparedScene::new(self.job(target)?, &|| false).ok_or("cancelled")?;
         let (query, size) = (prepared.query().clone(), self.job(target)?.settings.size);
         let object = |at: u32| {
             let first = query.first_hit([at % size.width, at / size.width])?;
