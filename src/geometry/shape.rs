@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::hit::{Hit, Hits, Spans};
-use super::lanes::{Eight, Simd};
+use super::lanes::{Eight, Lanes, Simd};
 use super::ray::{Ray, Rays};
 use super::{Aabb, Chart, Csg, Instance, Plane, Shaded, Solid, Surface};
 
@@ -92,14 +92,21 @@ impl Shape {
         rays: &Rays<Eight<S>>,
         hits: &Hits,
     ) -> Option<Shaded<Eight<S>>> {
+        let like = rays.origin.x;
         match self {
             Self::Solid(solid) => solid.surfaces(rays, hits).map(Shaded::from),
-            Self::Csg(csg) => csg.surfaces(rays, hits).map(Shaded::from),
+            Self::Csg(csg) => like.apart(
+                #[inline(always)]
+                || csg.surfaces(rays, hits).map(Shaded::from),
+            ),
             Self::Plane(plane) => {
                 let surfaces = plane.surface(rays, hits.ends(rays.origin.x.simd));
                 Some(surfaces.into())
             }
-            Self::Mesh(instance) => Some(instance.surfaces(rays, hits)),
+            Self::Mesh(instance) => like.apart(
+                #[inline(always)]
+                || Some(instance.surfaces(rays, hits)),
+            ),
         }
     }
 

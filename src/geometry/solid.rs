@@ -92,12 +92,25 @@ impl Solid {
     /// The crossings of a simple solid in each lane; `None` for quadrics.
     #[inline(always)]
     pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
+        let like = rays.origin.x;
         match self {
             Self::Sphere(sphere) => sphere.ends(rays),
-            Self::Ellipsoid(ellipsoid) => ellipsoid.ends(rays),
-            Self::Cuboid(cuboid) => cuboid.ends(rays),
-            Self::Cylinder(cylinder) => cylinder.ends(rays),
-            Self::Cone(cone) => cone.ends(rays),
+            Self::Ellipsoid(ellipsoid) => like.apart(
+                #[inline(always)]
+                || ellipsoid.ends(rays),
+            ),
+            Self::Cuboid(cuboid) => like.apart(
+                #[inline(always)]
+                || cuboid.ends(rays),
+            ),
+            Self::Cylinder(cylinder) => like.apart(
+                #[inline(always)]
+                || cylinder.ends(rays),
+            ),
+            Self::Cone(cone) => like.apart(
+                #[inline(always)]
+                || cone.ends(rays),
+            ),
             Self::Quadric(_) => None,
         }
     }
@@ -125,10 +138,22 @@ impl Solid {
         let at = hits.ends(rays.origin.x.simd);
         Some(match self {
             Self::Sphere(sphere) => sphere.surface(rays, at),
-            Self::Ellipsoid(ellipsoid) => ellipsoid.surface(rays, at),
-            Self::Cuboid(cuboid) => cuboid.surface(rays, at),
-            Self::Cylinder(cylinder) => cylinder.surface(rays, at),
-            Self::Cone(cone) => cone.surface(rays, at),
+            Self::Ellipsoid(ellipsoid) => at.t.apart(
+                #[inline(always)]
+                || ellipsoid.surface(rays, at),
+            ),
+            Self::Cuboid(cuboid) => at.t.apart(
+                #[inline(always)]
+                || cuboid.surface(rays, at),
+            ),
+            Self::Cylinder(cylinder) => at.t.apart(
+                #[inline(always)]
+                || cylinder.surface(rays, at),
+            ),
+            Self::Cone(cone) => at.t.apart(
+                #[inline(always)]
+                || cone.surface(rays, at),
+            ),
             Self::Quadric(_) => return None,
         })
     }

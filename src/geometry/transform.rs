@@ -156,7 +156,10 @@ impl Affine {
         bounds: impl FnOnce() -> Aabb,
     ) -> Option<Ends<N>> {
         if self.is_ill_conditioned {
-            found.clipped(&bounds(), rays)
+            found.enter.t.apart(
+                #[inline(always)]
+                || found.clipped(&bounds(), rays),
+            )
         } else {
             Some(found)
         }

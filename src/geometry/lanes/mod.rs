@@ -115,6 +115,10 @@ pub trait Lanes:
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// Whether the mask is true in any lane.
     fn any(mask: Self::Mask) -> bool;
+    /// Calls a part of a long formula, compiled for vectors like this as a function of its own.
+    ///
+    /// This is for the compiler's sake: a function takes it about the square of its size.
+    fn apart<R>(self, part: impl FnOnce() -> R) -> R;
 
     /// Whether this is a finite number.
     #[inline(always)]
@@ -205,6 +209,11 @@ impl Lanes for f64 {
     #[inline(always)]
     fn any(mask: bool) -> bool {
         mask
+    }
+
+    #[inline(always)]
+    fn apart<R>(self, part: impl FnOnce() -> R) -> R {
+        part()
     }
 }
 
@@ -316,6 +325,11 @@ macro_rules! lanes {
             #[inline(always)]
             fn any(mask: Self::Mask) -> bool {
                 mask.any_true()
+            }
+
+            #[inline(always)]
+            fn apart<R>(self, part: impl FnOnce() -> R) -> R {
+                self.simd.vectorize(part)
             }
         }
     };

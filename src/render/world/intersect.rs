@@ -428,10 +428,7 @@ impl World {
             Shape::Mesh(instance) => {
                 let search = self.search(object, search);
                 let structures = &self.structures;
-                simd.vectorize(
-                    #[inline(always)]
-                    || structures.hit(simd, object, instance, ray, limit, search),
-                )
+                structures.hit(simd, object, instance, ray, limit, search)
             }
             shape => shape.hit(ray, limit),
         }
@@ -455,14 +452,33 @@ impl World {
         mut visit: impl FnMut(Range<usize>) -> f64,
     ) {
         match &self.tree {
-            Some(tree) => tree.traverse(simd, ray, limit, visit),
+            Some(tree) => tree.traverse(
+                simd,
+                ray,
+                limit,
+                #[inline(always)]
+                |run| visited(simd, &mut visit, run),
+            ),
             None => {
                 for run in runs_in_file_order(self.scene.objects.len()) {
-                    if visit(run) < 0.0 {
+                    if visited(simd, &mut visit, run) < 0.0 {
                         return;
                     }
                 }
             }
         }
     }
+}
+
+/// Visits a run, apart from the code that visits it in several places.
+#[inline(always)]
+fn visited<S: Simd>(
+    simd: S,
+    visit: &mut impl FnMut(Range<usize>) -> f64,
+    run: Range<usize>,
+) -> f64 {
+    simd.vectorize(
+        #[inline(always)]
+        || visit(run),
+    )
 }

@@ -168,7 +168,11 @@ impl World {
             for lane in each_bit(packet.lanes) {
                 let lane = lane % WIDTH;
                 let (ray, end) = (packet.ray(lane), packet.ends.0[lane]);
-                nearest.put(lane, self.nearest_alone(simd, &ray, end));
+                let alone = simd.vectorize(
+                    #[inline(always)]
+                    || self.nearest_alone(simd, &ray, end),
+                );
+                nearest.put(lane, alone);
             }
             return nearest;
         }
@@ -278,7 +282,10 @@ impl World {
                 Shape::Mesh(instance) => {
                     let search = self.search(object, search);
                     let structures = &self.structures;
-                    structures.hits(object, instance, rays, lanes, limits, search)
+                    limits.apart(
+                        #[inline(always)]
+                        || structures.hits(object, instance, rays, lanes, limits, search),
+                    )
                 }
                 shape => shape.hits(rays, *limits, lanes),
             },
@@ -305,14 +312,35 @@ impl World {
         mut visit: impl FnMut(Range<usize>, u32, Eight<S>) -> Eight<S>,
     ) {
         if let Some(tree) = &self.tree {
-            tree.traverse_packet(rays, lanes, limits, order, visit);
+            tree.traverse_packet(
+                rays,
+                lanes,
+                limits,
+                order,
+                #[inline(always)]
+                |run, lanes, limits| visited(&mut visit, run, lanes, limits),
+            );
             return;
         }
         let mut limits = limits;
         for run in runs_in_file_order(self.scene.objects.len()) {
-            limits = visit(run, lanes, limits);
+            limits = visited(&mut visit, run, lanes, limits);
         }
     }
+}
+
+/// Visits a run, apart from the code that visits it in several places.
+#[inline(always)]
+fn visited<S: Simd>(
+    visit: &mut impl FnMut(Range<usize>, u32, Eight<S>) -> Eight<S>,
+    run: Range<usize>,
+    lanes: u32,
+    limits: Eight<S>,
+) -> Eight<S> {
+    limits.apart(
+        #[inline(always)]
+        || visit(run, lanes, limits),
+    )
 }
 
 /// Disables some rays, by limits below 0.

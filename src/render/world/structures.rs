@@ -55,25 +55,30 @@ impl MeshTree {
         limit: f64,
         search: Search,
     ) -> Option<Hit> {
-        let limit_on_line = line.limit(limit);
-        let roughly = line.roughly(simd);
-        let mut nearest = None;
-        self.bvh.traverse(
-            simd,
-            line.ray(),
-            limit_on_line,
+        simd.vectorize(
             #[inline(always)]
-            |places| {
-                let run = self.run(places);
-                let farthest = line.meet_run(&roughly, &run, limit_on_line, &mut nearest);
-                let is_met = || nearest.is_some_and(|hit| line.hit(hit, limit).is_some());
-                if search == Search::Blocker && is_met() {
-                    return -1.0;
-                }
-                farthest
+            || {
+                let limit_on_line = line.limit(limit);
+                let roughly = line.roughly(simd);
+                let mut nearest = None;
+                self.bvh.traverse(
+                    simd,
+                    line.ray(),
+                    limit_on_line,
+                    #[inline(always)]
+                    |places| {
+                        let run = self.run(places);
+                        let farthest = line.meet_run(&roughly, &run, limit_on_line, &mut nearest);
+                        let is_met = || nearest.is_some_and(|hit| line.hit(hit, limit).is_some());
+                        if search == Search::Blocker && is_met() {
+                            return -1.0;
+                        }
+                        farthest
+                    },
+                );
+                line.hit(nearest?, limit)
             },
-        );
-        line.hit(nearest?, limit)
+        )
     }
 
     /// The triangles at some places visited at once.
