@@ -129,7 +129,7 @@ impl BlockTracer {
     }
 }
 
-/// What a thread traces blocks with. Its type is that of previews, so that they share the compiled code.
+/// What a thread traces blocks with.
 fn pixel_sampler<'w>(shot: &FrameContext<'w>, cancelled: IsCancelled<'w>) -> PixelSampler<'w> {
     let settings = shot.settings;
     let tracer = Tracer::new(shot.world, settings.integrator, settings.depth, cancelled);
