@@ -89,11 +89,11 @@ impl Block {
     pub(crate) fn trace(
         &mut self,
         spp: u32,
-        shot: &FrameContext<'_>,
+        context: &FrameContext<'_>,
         sampler: &mut PixelSampler<'_>,
         (interval, keep): (Duration, impl Fn(&Self)),
     ) {
-        let region = Blocks::of(shot.settings.traced().size()).region(self.number);
+        let region = Blocks::of(context.settings.traced().size()).region(self.number);
         let all = in_squares(region);
         let at = |[x, y]: [u32; 2]| ((y - region.y) * region.width + (x - region.x)) as usize;
         let mut taking = self.taking();
@@ -111,7 +111,7 @@ impl Block {
                 pixels.clone_from(&all);
                 pixels.retain(|&pixel| taking.has(square(pixel)));
             }
-            if let Some(limit) = shot.settings.adaptive()
+            if let Some(limit) = context.settings.adaptive()
                 && LEAST_ADAPTIVE_SPP <= index
                 && index.is_power_of_two()
             {
@@ -128,7 +128,7 @@ impl Block {
             for together in pixels.chunks(TOGETHER) {
                 sampler.pixels.clear();
                 sampler.pixels.extend_from_slice(together);
-                sampler.sample(index, shot);
+                sampler.sample(index, context);
                 seen.extend_from_slice(&sampler.seen);
             }
             if sampler.tracer.is_cancelled() {
@@ -138,7 +138,7 @@ impl Block {
                 self.half.clone_from(&self.sums);
             }
             for (&pixel, seen) in pixels.iter().zip(&seen) {
-                self.sums[at(pixel)] += match shot.settings.aov {
+                self.sums[at(pixel)] += match context.settings.aov {
                     Some(Aov::Cost) => Rgb::splat(seen.rays.into()),
                     _ => seen.radiance,
                 };
@@ -150,7 +150,7 @@ impl Block {
             let rays = sampler.tracer.counts().since(before);
             self.counts = self.counts.and(rays);
             if self.samples.is_power_of_two() {
-                self.estimate(&shot.settings, pixels.iter().map(|&pixel| at(pixel)));
+                self.estimate(&context.settings, pixels.iter().map(|&pixel| at(pixel)));
             }
             if interval <= kept.elapsed() && self.samples < spp {
                 keep(self);

@@ -82,12 +82,12 @@ impl BlockTracer {
                 || self.trace_together(photons, blocks, spp, interval, cancelled, &hand_over);
             return self.pool.install(trace);
         }
-        let shot = FrameContext::new(&self.world, &self.job.camera, self.job.settings);
-        let new_sampler = || pixel_sampler(&shot, cancelled);
+        let context = FrameContext::new(&self.world, &self.job.camera, self.job.settings);
+        let new_sampler = || pixel_sampler(&context, cancelled);
         let trace = |sampler: &mut PixelSampler<'_>, mut block: Block| {
             if !cancelled() {
                 let keep = |block: &Block| hand_over(block.clone());
-                block.trace(spp, &shot, sampler, (interval, keep));
+                block.trace(spp, &context, sampler, (interval, keep));
                 hand_over(block);
             }
         };
@@ -112,13 +112,13 @@ impl BlockTracer {
             let Some(maps) = photons.maps(&self.world, samples..goal, cancelled) else {
                 break;
             };
-            let shot = FrameContext::new(&self.world, &self.job.camera, self.job.settings);
-            let shot = shot.with_photons(Some(&maps));
+            let context = FrameContext::new(&self.world, &self.job.camera, self.job.settings);
+            let context = context.with_photons(Some(&maps));
             let trace = |sampler: &mut PixelSampler<'_>, block: &mut Block| {
-                block.trace(goal, &shot, sampler, (Duration::MAX, |_: &Block| {}));
+                block.trace(goal, &context, sampler, (Duration::MAX, |_: &Block| {}));
             };
             let lacking = blocks.par_iter_mut().filter(|block| block.samples < goal);
-            lacking.for_each_init(|| pixel_sampler(&shot, cancelled), trace);
+            lacking.for_each_init(|| pixel_sampler(&context, cancelled), trace);
             if interval <= handed_over.elapsed() && goal < spp {
                 blocks.iter().cloned().for_each(hand_over);
                 handed_over = Instant::now();
@@ -130,12 +130,17 @@ impl BlockTracer {
 }
 
 /// What a thread traces blocks with.
-fn pixel_sampler<'w>(shot: &FrameContext<'w>, cancelled: IsCancelled<'w>) -> PixelSampler<'w> {
-    let settings = shot.settings;
-    let tracer = Tracer::new(shot.world, settings.integrator, settings.depth, cancelled);
+fn pixel_sampler<'w>(context: &FrameContext<'w>, cancelled: IsCancelled<'w>) -> PixelSampler<'w> {
+    let settings = context.settings;
+    let tracer = Tracer::new(
+        context.world,
+        settings.integrator,
+        settings.depth,
+        cancelled,
+    );
     let tracer = tracer
         .gathering(LightComponent::of(settings.aov))
-        .with_photons(shot.photons);
+        .with_photons(context.photons);
     PixelSampler::new(match settings.aov {
         // Only then are rays told apart by samples.
         Some(Aov::Cost) => tracer.noting(),

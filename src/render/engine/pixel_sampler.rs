@@ -26,20 +26,20 @@ impl<'w> PixelSampler<'w> {
 
     /// Takes the sample with this index of each of the pixels. Meaningless once the tracer is
     /// cancelled.
-    pub(crate) fn sample(&mut self, index: u32, shot: &FrameContext<'_>) {
+    pub(crate) fn sample(&mut self, index: u32, context: &FrameContext<'_>) {
         let Self {
             tracer,
             pixels,
             samples,
             seen,
         } = self;
-        shot.samples(pixels, index, samples);
-        match shot.settings.surface() {
+        context.samples(pixels, index, samples);
+        match context.settings.surface() {
             None => {
                 tracer.trace(samples, seen);
-                if 0.0 < shot.settings.clamp {
+                if 0.0 < context.settings.clamp {
                     for seen in seen {
-                        seen.radiance = clamped(seen.radiance, shot.settings.clamp);
+                        seen.radiance = clamped(seen.radiance, context.settings.clamp);
                     }
                 }
             }
@@ -47,8 +47,8 @@ impl<'w> PixelSampler<'w> {
                 tracer.count(samples.len());
                 seen.clear();
                 seen.extend(samples.iter().map(|&Sample { ray, reach, .. }| {
-                    let skipped = (ray.origin - shot.eye).dot(ray.direction);
-                    first_hit(shot.world, &ray, reach, skipped, aov)
+                    let skipped = (ray.origin - context.eye).dot(ray.direction);
+                    first_hit(context.world, &ray, reach, skipped, aov)
                 }));
             }
         }

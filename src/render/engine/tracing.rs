@@ -158,7 +158,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
     pub(crate) fn take(
         &mut self,
         step: &Step,
-        shot: &FrameContext<'_>,
+        context: &FrameContext<'_>,
         photons: Option<&Photons>,
     ) -> bool {
         if let Step::Samples(indices) = step
@@ -169,7 +169,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         let selected = self.film.select(step);
         if selected == 0.0 {
             self.complete = true;
-            self.publish(shot);
+            self.publish(context);
             return false;
         }
         self.unfinished = selected;
@@ -179,21 +179,21 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             let maps = photons.filter(|_| is_lacking).map(|photons| {
                 let (token, published) = (self.token, self.published);
                 let cancelled = || token.cancelled(published);
-                photons.maps(shot.world, part.clone(), &cancelled)
+                photons.maps(context.world, part.clone(), &cancelled)
             });
             if maps.as_ref().is_some_and(Option::is_none) {
                 return false;
             }
             let maps = maps.flatten();
             let share = selected * step.share(&part);
-            if !self.take_part((step, part), share, &shot.with_photons(maps.as_ref())) {
+            if !self.take_part((step, part), share, &context.with_photons(maps.as_ref())) {
                 return false;
             }
         }
         self.whole_samples = step.whole_after();
         self.complete = self.whole_samples == self.job.settings.spp || self.is_enough(step);
         if self.complete || self.is_due() || self.is_first_due(step) {
-            self.publish(shot);
+            self.publish(context);
         }
         !self.complete
     }
@@ -203,7 +203,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         &mut self,
         (step, part): (&Step, Range<u32>),
         share: f64,
-        shot: &FrameContext<'_>,
+        context: &FrameContext<'_>,
     ) -> bool {
         let before = self.taken;
         let tiles = self.film.tiles();
@@ -214,7 +214,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             let (token, published) = (self.token, self.published);
             let cancelled = || token.cancelled(published);
             let part = (step, part.clone());
-            let counts = self.film.advance(next..until, part, shot, &cancelled);
+            let counts = self.film.advance(next..until, part, context, &cancelled);
             self.counts = self.counts.and(counts);
             if cancelled() {
                 return false;
@@ -224,7 +224,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             next = until;
             self.taken = before + share * (next as f64 / tiles as f64);
             if next < tiles && self.is_due() {
-                self.publish(shot);
+                self.publish(context);
             }
         }
         true
@@ -302,7 +302,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         }
     }
 
-    fn publish(&mut self, shot: &FrameContext<'_>) {
+    fn publish(&mut self, context: &FrameContext<'_>) {
         let begun = Instant::now();
         let (token, published) = (self.token, self.published);
         let unwanted = || token.unwanted(published);
@@ -314,14 +314,14 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         let Some(mut raster) = raster else {
             return;
         };
-        let denoised = self.denoised(&raster, shot);
+        let denoised = self.denoised(&raster, context);
         if unwanted() {
             return;
         }
         let denoised = match (denoised, self.job.frames) {
             (denoised, Frames::Live) => denoised.unwrap_or_default(),
             (Some(denoised), _) => {
-                raster.replace(denoised, shot.settings.transfer);
+                raster.replace(denoised, context.settings.transfer);
                 Vec::new()
             }
             (None, _) => Vec::new(),
@@ -366,23 +366,23 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
     }
 
     /// The values of a raster with less noise, if the job asks for it and each pixel has a sample.
-    fn denoised(&mut self, raster: &Raster, shot: &FrameContext<'_>) -> Option<Vec<[f32; 3]>> {
+    fn denoised(&mut self, raster: &Raster, context: &FrameContext<'_>) -> Option<Vec<[f32; 3]>> {
         let is_due = self.job.denoises() && 0 < self.whole_samples && !raster.values.is_empty();
         let (token, published) = (self.token, self.published);
         let unwanted = || token.unwanted(published);
         if !is_due {
             return None;
         }
-        let variances = self.film.variances(shot)?;
+        let variances = self.film.variances(context)?;
         if variances.iter().all(|&variance| variance == 0.0) {
             return Some(raster.values.clone());
         }
-        if !self.guides.extend(self.whole_samples, shot, &unwanted) {
+        if !self.guides.extend(self.whole_samples, context, &unwanted) {
             return None;
         }
         let noisy = Noisy {
-            level: shot.world.level,
-            width: shot.settings.traced().size().width as usize,
+            level: context.world.level,
+            width: context.settings.traced().size().width as usize,
             values: &raster.values,
             variances: &variances,
             guides: &self.guides,

@@ -183,11 +183,11 @@ fn trace<W: Fn() + Sync>(
         }
     };
     drop(known);
-    let shot = FrameContext::new(&world, &job.camera, job.settings);
+    let context = FrameContext::new(&world, &job.camera, job.settings);
     let query = Query::new(&world, photons.as_ref(), &job);
     let mut picture = Tracing::new(token.with_world(), &job, (film, before), wake, query);
     for step in steps(job.settings.spp, job.frames) {
-        if !picture.take(&step, &shot, photons.as_deref()) {
+        if !picture.take(&step, &context, photons.as_deref()) {
             break;
         }
     }

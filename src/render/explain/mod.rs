@@ -184,9 +184,9 @@ impl Query {
             aov: None,
             ..self.settings
         };
-        let shot = FrameContext::new(world, &self.camera, settings);
+        let context = FrameContext::new(world, &self.camera, settings);
         let mut samples = Vec::new();
-        shot.samples(&[pixel], index, &mut samples);
+        context.samples(&[pixel], index, &mut samples);
         samples.pop()
     }
 }

@@ -62,13 +62,13 @@ impl Easel {
     pub(super) fn trace(&mut self, patience: u64) -> bool {
         let asked = AtomicU64::new(0);
         let cancelled = || patience <= asked.fetch_add(1, Ordering::Relaxed);
-        let shot = FrameContext::new(&self.world, &self.job.camera, self.job.settings);
+        let context = FrameContext::new(&self.world, &self.job.camera, self.job.settings);
         for step in steps(self.job.settings.spp, self.job.frames) {
             if self.film.select(&step) == 0.0 {
                 break;
             }
             let (tiles, part) = (0..self.film.tiles(), (&step, step.indices()));
-            let counts = self.film.advance(tiles, part, &shot, &cancelled);
+            let counts = self.film.advance(tiles, part, &context, &cancelled);
             self.counts = self.counts.and(counts);
             if cancelled() {
                 return false;

@@ -68,14 +68,14 @@ fn job_of((scene, images): (Scene, Images), integrator: Integrator) -> Job {
 /// The radiance of a sample, traced among others as in a picture, in the second of several packets;
 /// by the vectors of this machine and by those that every machine has; a path also alone.
 fn traced(job: &Job, world: &World, pixel: [u32; 2], index: u32) -> Rgb {
-    let shot = FrameContext::new(world, &job.camera, job.settings);
+    let context = FrameContext::new(world, &job.camera, job.settings);
     let [x, y] = pixel;
     let row: Vec<_> = (0..21)
         .map(|place| [(x + place).saturating_sub(13), y])
         .collect();
     let place = row.iter().rposition(|other| *other == pixel);
     let mut samples = Vec::new();
-    shot.samples(&row, index, &mut samples);
+    context.samples(&row, index, &mut samples);
     let Settings {
         integrator, depth, ..
     } = job.settings;

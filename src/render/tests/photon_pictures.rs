@@ -101,7 +101,7 @@ fn photons_are_explained() {
     let maps = photons
         .maps(&world, 0..4, &|| false)
         .expect("nothing cancels");
-    let shot = FrameContext::new(&world, &job.camera, job.settings);
+    let context = FrameContext::new(&world, &job.camera, job.settings);
     let mut brought = 0;
     for (x, y, index) in
         (0..40).flat_map(|x| (0..30).map(move |y| (x, y, if x == 7 { y / 9 } else { 0 })))
@@ -109,7 +109,7 @@ fn photons_are_explained() {
         let explanation = prepared.query().explain([x, y], index, &|| false);
         let explanation = explanation.expect("it is prepared");
         let mut samples = Vec::new();
-        shot.samples(&[[x, y]], index, &mut samples);
+        context.samples(&[[x, y]], index, &mut samples);
         let tracer = Tracer::new(&world, Integrator::Photon, job.settings.depth, &|| false);
         let seen = tracer.with_photons(Some(&maps)).radiance(&samples[0]);
         assert_eq!(explanation.radiance, seen.radiance, "{x} {y} {index}");

@@ -316,13 +316,13 @@ fn a_film_touches_memory_while_tracing_and_developing_can_be_cancelled() {
     };
     let world = world(Scene::clone(&still()));
     let traced = settings(size.width, size.height, 1);
-    let shot = FrameContext::new(&world, &world.scene.camera, traced);
+    let context = FrameContext::new(&world, &world.scene.camera, traced);
     let mut film =
         Film::new(&job(&still(), settings(size.width, size.height, 1))).expect("memory is there");
     assert_eq!((film.tiles(), film.begun()), (125 * 63, 0));
-    film.advance(0..7, (&Step::Grid(8), 0..1), &shot, &|| false);
+    film.advance(0..7, (&Step::Grid(8), 0..1), &context, &|| false);
     assert_eq!(film.begun(), 7);
-    film.advance(7..film.tiles(), (&Step::Grid(8), 0..1), &shot, &|| true);
+    film.advance(7..film.tiles(), (&Step::Grid(8), 0..1), &context, &|| true);
     let asked = AtomicUsize::new(0);
     let stop_at_the_third = || asked.fetch_add(1, Ordering::Relaxed) == 2;
     assert!(film.develop(&stop_at_the_third).is_none());

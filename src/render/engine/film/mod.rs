@@ -287,7 +287,7 @@ impl Film {
         &mut self,
         tiles: Range<usize>,
         (step, part): (&Step, Range<u32>),
-        shot: &FrameContext<'_>,
+        context: &FrameContext<'_>,
         cancelled: IsCancelled<'_>,
     ) -> Counts {
         let (size, shape, remembers) = (self.size, self.shape, self.remembers);
@@ -308,11 +308,11 @@ impl Film {
                 || {
                     let Settings {
                         integrator, depth, ..
-                    } = shot.settings;
-                    let tracer = Tracer::new(shot.world, integrator, depth, cancelled);
+                    } = context.settings;
+                    let tracer = Tracer::new(context.world, integrator, depth, cancelled);
                     let tracer = tracer
-                        .gathering(LightComponent::of(shot.settings.aov))
-                        .with_photons(shot.photons);
+                        .gathering(LightComponent::of(context.settings.aov))
+                        .with_photons(context.photons);
                     PixelSampler::new(match remembers {
                         Remembers::Pixels => tracer,
                         Remembers::Histories => tracer.noting(),
@@ -320,7 +320,7 @@ impl Film {
                 },
                 |sampler, tile| {
                     let before = sampler.tracer.counts();
-                    tile.advance(size, (step, part.clone(), selection), shot, sampler);
+                    tile.advance(size, (step, part.clone(), selection), context, sampler);
                     let traced = sampler.tracer.counts().since(before);
                     tile.add_rays(traced);
                     traced
@@ -328,7 +328,7 @@ impl Film {
             )
             .reduce(Counts::default, Counts::and);
         self.over_budget += counts.over_budget;
-        if part.end == step.indices().end && Doubling::of(step, &shot.settings).is_some() {
+        if part.end == step.indices().end && Doubling::of(step, &context.settings).is_some() {
             self.gather_errors(tiles);
         }
         counts
@@ -377,7 +377,7 @@ impl Film {
 
     /// The variances of the linear values of pixels, or [`UNKNOWN`]; `None` where the noise is not
     /// recorded.
-    pub(crate) fn variances(&self, shot: &FrameContext<'_>) -> Option<Vec<f32>> {
+    pub(crate) fn variances(&self, context: &FrameContext<'_>) -> Option<Vec<f32>> {
         if self.remembers != Remembers::Histories {
             return None;
         }
@@ -385,10 +385,10 @@ impl Film {
         let scale = (scale * scale) as f32;
         let mut variances = Vec::new();
         self.develop_rows(0..self.rows(), &mut variances, |tile, at| {
-            match (tile.variance(at), shot.settings.integrator) {
+            match (tile.variance(at), context.settings.integrator) {
                 // What differs from sample to sample is which surfaces they hit, of which neighbours
                 // tell nothing: denoised, pictures of 16 samples have up to a sixth more error.
-                (_, Integrator::Whitted) if !shot.blurs() => 0.0,
+                (_, Integrator::Whitted) if !context.blurs() => 0.0,
                 // A single sample is at the centre of all distributions.
                 (UNKNOWN, Integrator::Whitted) => 0.0,
                 (UNKNOWN, Integrator::Path | Integrator::Photon) => UNKNOWN,

@@ -158,7 +158,7 @@ impl Tile {
         &mut self,
         size: Size,
         (step, part, selection): (&Step, Range<u32>, Option<&Selection>),
-        shot: &FrameContext<'_>,
+        context: &FrameContext<'_>,
         sampler: &mut PixelSampler<'_>,
     ) {
         if sampler.tracer.is_cancelled() {
@@ -185,7 +185,7 @@ impl Tile {
                 partial_pass.pixels.clone_from(&sampler.pixels);
             }
         }
-        let doubling = Doubling::of(step, &shot.settings).filter(|_| is_last);
+        let doubling = Doubling::of(step, &context.settings).filter(|_| is_last);
         let doubling = doubling.map(|doubling| {
             let partial_pass = self.partial_pass.as_ref();
             (
@@ -194,7 +194,7 @@ impl Tile {
             )
         });
         for index in part {
-            self.sample(index, shot, sampler);
+            self.sample(index, context, sampler);
             if sampler.tracer.is_cancelled() {
                 return;
             }
@@ -217,8 +217,8 @@ impl Tile {
     }
 
     /// Adds one sample to each of the given pixels.
-    fn sample(&mut self, index: u32, shot: &FrameContext<'_>, sampler: &mut PixelSampler<'_>) {
-        sampler.sample(index, shot);
+    fn sample(&mut self, index: u32, context: &FrameContext<'_>, sampler: &mut PixelSampler<'_>) {
+        sampler.sample(index, context);
         for (&pixel, seen) in sampler.pixels.iter().zip(&sampler.seen) {
             let at = self.index(pixel);
             self.sums[at] += seen.radiance;

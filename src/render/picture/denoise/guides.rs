@@ -23,11 +23,11 @@ impl Guides {
     pub(crate) fn extend(
         &mut self,
         spp: u32,
-        shot: &FrameContext<'_>,
+        context: &FrameContext<'_>,
         cancelled: IsCancelled<'_>,
     ) -> bool {
-        let size = shot.settings.traced().size();
-        let integrator = shot.settings.integrator;
+        let size = context.settings.traced().size();
+        let integrator = context.settings.integrator;
         if self.sums.is_empty() {
             if self.sums.try_reserve_exact(size.pixels()).is_err() {
                 return false;
@@ -43,10 +43,10 @@ impl Guides {
                     if cancelled() {
                         return;
                     }
-                    shot.samples(&pixels, index, samples);
+                    context.samples(&pixels, index, samples);
                     for (sum, sample) in row.iter_mut().zip(samples.iter()) {
-                        let skipped = (sample.ray.origin - shot.eye).dot(sample.ray.direction);
-                        sum.add(guide(shot.world, sample, skipped, integrator));
+                        let skipped = (sample.ray.origin - context.eye).dot(sample.ray.direction);
+                        sum.add(guide(context.world, sample, skipped, integrator));
                     }
                 }
             });
