@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::graded::Graded;
+use super::as_recorded::AsRecorded;
 use super::output::Output;
 use super::tracing::Tracer;
 use super::{Error, Messages, Reading, Tracing, stdout};
@@ -134,9 +134,10 @@ fn read(path: &Path) -> Result<Recorded, Error> {
 /// Traces a scene, to be compared with a picture if there is one.
 fn trace(work: &Compare, path: &Path, picture: Option<(&Path, &Recorded)>) -> Result<Image, Error> {
     let holds_light = picture.is_some_and(|(_, picture)| picture.holds_light);
-    let mut graded = picture.map(|(of, read)| Graded::new([path, of], read, &work.tracing));
-    let over = match &graded {
-        Some(graded) => graded.over(),
+    let mut as_recorded =
+        picture.map(|(of, read)| AsRecorded::new([path, of], read, &work.tracing));
+    let over = match &as_recorded {
+        Some(as_recorded) => as_recorded.over(),
         None => work.tracing.over(),
     };
     let mut loaded = work.reading.load(Messages::Text, path, Some(&over))?;
@@ -146,8 +147,8 @@ fn trace(work: &Compare, path: &Path, picture: Option<(&Path, &Recorded)>) -> Re
         Output::File(output.clone()).check_is_not(&loaded.read.files, &reason)?;
     }
     let own = scene.camera.size;
-    let tracing = match &mut graded {
-        Some(graded) => graded.tracing(&scene),
+    let tracing = match &mut as_recorded {
+        Some(as_recorded) => as_recorded.tracing(&scene),
         None => work.tracing.clone(),
     };
     let frames = if holds_light {
@@ -156,8 +157,8 @@ fn trace(work: &Compare, path: &Path, picture: Option<(&Path, &Recorded)>) -> Re
         Frames::Last
     };
     let job = tracing.job(scene, loaded.read.images, frames)?;
-    if let Some(graded) = &graded {
-        graded.tell(&job, own);
+    if let Some(as_recorded) = &as_recorded {
+        as_recorded.tell(&job, own);
     }
     let frame = Tracer::new(tracing.means).trace(job, None, || {})?;
     let pixels = if holds_light {

@@ -2,13 +2,13 @@
 //! show, compare, explain, convert and bench. Knows no terminals, except for a progress line if
 //! standard error is one. `render` is the longest: its file tells how it is planned and carried out.
 
+mod as_recorded;
 mod bench;
 mod check;
 mod compare;
 mod convert;
 mod explain;
 mod finding;
-mod graded;
 mod machine;
 mod merge;
 mod messages;

@@ -1,4 +1,4 @@
-//! How a scene is traced that is compared with a picture: as that was made, if its file says how.
+//! Traces a scene to be compared with a picture as that picture was made, if its file records how.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use render::{Job, PictureMetadata, Provenance, Region, can_denoise};
 use scene::{Rendering, Scene, Size};
 
 /// A scene that is to be traced as a picture was.
-pub(super) struct Graded<'w> {
+pub(super) struct AsRecorded<'w> {
     /// The files of the scene and the picture.
     scene: &'w Path,
     picture: &'w Path,
@@ -21,7 +21,7 @@ pub(super) struct Graded<'w> {
     region: Option<Region>,
 }
 
-impl<'w> Graded<'w> {
+impl<'w> AsRecorded<'w> {
     pub(super) fn new([scene, picture]: [&'w Path; 2], read: &Recorded, said: &'w Tracing) -> Self {
         let mut record = read.record.clone();
         let own = read.image.size();
