@@ -1,4 +1,4 @@
-//! Headless work, a command a file: check, render (a picture, a part of one, or a sequence), merge,
+//! Headless work, one file per command: check, render (a picture, a part of one, or a sequence), merge,
 //! show, compare, explain, convert and bench. Knows no terminals, except for a progress line if
 //! standard error is one. `render` is the longest: its file tells how it is planned and carried out.
 
@@ -71,7 +71,7 @@ pub enum Error {
     #[error(transparent)]
     UnknownLanguage(#[from] UnknownLanguage),
     /// Scenes have errors, which were printed.
-    #[error("nothing was rendered: the scene has {}", counted(*.errors, "error"))]
+    #[error("the scene has {}", counted(*.errors, "error"))]
     Invalid {
         /// The number of errors.
         errors: usize,

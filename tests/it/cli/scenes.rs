@@ -100,7 +100,7 @@ fn strict_turns_warnings_into_errors_but_not_notes() {
         (
             "render --strict odd.ray -o strict.ppm",
             65,
-            "nothing was rendered: the scene has 1 error",
+            "error: the scene has 1 error",
         ),
     ] {
         let stderr = place.stderr(line, code);
