@@ -2,6 +2,7 @@
 
 use super::parts::Traced;
 use super::{Error, Means, PicturePlan, Way};
+use crate::Messages;
 use crate::finding::{Naming, Suspect, Text, print_biases};
 use crate::stats::Stats;
 use crate::tracing::Tracer;
@@ -14,6 +15,7 @@ use text::counted;
 /// Traces and writes a picture, says what is wrong with it, and writes the figures.
 pub(super) fn render(mut plan: PicturePlan, way: Way) -> Result<(), Error> {
     let (still, means) = (plan.still, plan.means);
+    let messages = means.messages();
     let is_limited = matches!(still.job.limit, Some(Limit::Time(_)));
     // Kept to the end, so that its threads free memory while the picture is written.
     let mut tracer = None;
@@ -51,7 +53,10 @@ pub(super) fn render(mut plan: PicturePlan, way: Way) -> Result<(), Error> {
     let suspect = frame.and_then(|frame| Suspect::of_picture(frame, still.job, &plan.prospects));
     plan.times.trace = plan.times.lap();
     if let Some(frame) = &traced.frame {
-        print_notes(frame, &traced.picture, is_limited, means);
+        print_notes(frame, &traced.picture, messages);
+        if is_limited {
+            print_samples(&frame.progress, messages);
+        }
         plan.target.write(Picture {
             frame,
             layers: &layers,
@@ -61,7 +66,7 @@ pub(super) fn render(mut plan: PicturePlan, way: Way) -> Result<(), Error> {
     plan.times.write = plan.times.lap();
     if let Some(suspect) = suspect {
         let text = Text {
-            messages: means.messages(),
+            messages,
             path: &plan.scene,
             naming: Naming::Implied,
             source: source.as_ref(),
@@ -90,9 +95,8 @@ pub(super) fn short(source: Source) -> Option<Source> {
     Some(source).filter(|source| source.text().len() <= 1 << 20)
 }
 
-/// Says what is to be said of a picture before it is written.
-fn print_notes(frame: &Frame, picture: &Provenance, is_limited: bool, means: Means) {
-    let messages = means.messages();
+/// Prints the notes on a picture before it is written.
+fn print_notes(frame: &Frame, picture: &Provenance, messages: Messages) {
     if 0 < frame.progress.over_budget {
         let samples = counted(frame.progress.over_budget as usize, "sample");
         messages.note(&format!(
@@ -100,10 +104,12 @@ fn print_notes(frame: &Frame, picture: &Provenance, is_limited: bool, means: Mea
         ));
     }
     print_biases(messages, frame, picture);
-    if is_limited {
-        let Progress { spp, elapsed, .. } = frame.progress;
-        let samples = counted(spp as usize, "sample");
-        let seconds = elapsed.as_secs_f64();
-        messages.note(&format!("{samples} per pixel in {seconds:.1} s"));
-    }
+}
+
+/// Prints how many samples a picture took in its time.
+fn print_samples(progress: &Progress, messages: Messages) {
+    let Progress { spp, elapsed, .. } = progress;
+    let samples = counted(*spp as usize, "sample");
+    let seconds = elapsed.as_secs_f64();
+    messages.note(&format!("{samples} per pixel in {seconds:.1} s"));
 }
