@@ -6,9 +6,10 @@
 //! A hit is found in two steps: [`Shape::hit`] returns a distance for every candidate, and
 //! [`Shape::surface`] the point and normal, for the nearest hit only. [`Shape::spans`] returns the
 //! parts of a line inside a solid, more than one if the solid is not convex; squares and meshes are
-//! surfaces without an inside. [`Shape::outline`] returns lines along the surface, for wireframes, and [`Shape::patch`]
-//! parts of it from which points are chosen. There is no epsilon: the point is re-projected onto its surface, and
-//! [`Surface::leave`] starts a secondary ray a few ulps off the surface.
+//! surfaces without an inside. [`Shape::outline`] returns lines along the surface, for wireframes, and
+//! [`Shape::patch`] parts of it from which points are chosen. There is no epsilon: the point is
+//! re-projected onto its surface, and [`Surface::leave`] starts a secondary ray a few ulps off the
+//! surface.
 
 mod aabb;
 mod cancelled;
@@ -19,11 +20,11 @@ mod cuboid;
 mod cylinder;
 mod double_double;
 mod ellipsoid;
+mod frame_numbers;
 mod hit;
 pub mod lanes;
 mod line;
 mod mesh;
-mod numbers;
 mod outline;
 mod patch;
 mod plane;
@@ -49,12 +50,12 @@ pub use csg::{Csg, Node, Operation};
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use ellipsoid::Ellipsoid;
+pub use frame_numbers::{FrameNumbers, direction_of};
 pub use hit::{Crossings, Hit, Hits, Spans};
 pub use mesh::{
     ABSENT, Attribute, Instance, Mesh, MeshError, MeshLine, MeshLines, MeshParts, NearestOnLines,
     RoughLine, SlotRun, TriangleRun, TriangleRuns,
 };
-pub use numbers::{FrameNumbers, direction_of};
 pub use outline::Detail;
 pub use patch::{Ball, Flat, Parallelograms, Patch};
 pub use plane::Plane;

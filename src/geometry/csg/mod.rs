@@ -5,13 +5,13 @@
 //! regularised: results have no parts of zero thickness.
 //!
 //! Most lines cross no two surfaces at nearly the same point. They are evaluated side by side, on
-//! unordered lists ([`apart`]), by a flat [`program`]; the others one by one, with coincident
+//! unordered lists ([`side_by_side`]), by a flat [`program`]; the others one by one, with coincident
 //! boundaries resolved ([`exact`]).
 
-mod apart;
 mod exact;
 mod merge;
 mod program;
+mod side_by_side;
 mod slopes;
 mod uncut;
 

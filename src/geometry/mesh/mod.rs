@@ -2,11 +2,11 @@
 //!
 //! A [`Mesh`] is shared: each [`Instance`] places it in the world by an affine frame. Rays are
 //! transformed to the space of the mesh once per instance. The caller finds the candidate
-//! triangles, usually by a bvh over [`Mesh::triangle_bounds`], and tests them in runs ([`TriangleRuns`]),
+//! triangles, usually by a BVH over [`Mesh::triangle_bounds`], and tests them in runs ([`TriangleRuns`]),
 //! with a single [`MeshLine`] or the [`MeshLines`] of a packet.
 
 mod instance;
-mod lines;
+mod packet;
 mod runs;
 mod surface;
 
@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use super::Aabb;
 
 pub use instance::{Instance, MeshLine};
-pub use lines::{MeshLines, NearestOnLines};
+pub use packet::{MeshLines, NearestOnLines};
 pub use runs::{RoughLine, TriangleRun, TriangleRuns};
 pub(super) use surface::gathered;
 

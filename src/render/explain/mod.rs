@@ -5,9 +5,9 @@
 //! nothing where no one asks.
 
 mod judge;
-mod kind;
 mod lights;
 mod path;
+mod ray_kind;
 mod record;
 mod recorder;
 mod surface;
@@ -26,7 +26,7 @@ use geometry::IsCancelled;
 use judge::Case;
 use scene::{Integrator, MAX_SPP};
 
-pub use kind::RayKind;
+pub use ray_kind::RayKind;
 pub use record::{
     Boundary, Chosen, Crossing, EmitterTerm, Explanation, LightHit, LightTerm, RayEnd, Shading,
     Stop, SurfaceHit, TracedRay, Unlisted, UnlitReason,

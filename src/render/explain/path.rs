@@ -1,8 +1,8 @@
 //! The rays of a path: the integrator's own steps run for one sample, and what they leave in the wave
 //! is read between them.
 
-use super::kind::RayKind;
 use super::lights::LitPoint;
+use super::ray_kind::RayKind;
 use super::record::{
     Chosen, EmitterTerm, LightHit, LightTerm, RayEnd, Shading, Stop, TracedRay, UnlitReason,
 };

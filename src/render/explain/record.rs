@@ -3,7 +3,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::kind::RayKind;
+use super::ray_kind::RayKind;
 use super::verdict::Finding;
 use crate::sampling::Densities;
 use geometry::{Ray, Side};

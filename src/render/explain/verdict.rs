@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::kind::RayKind;
+use super::ray_kind::RayKind;
 use scene::{FalloffRule, Rgb};
 
 /// A verdict with the ray at whose end it was found.

@@ -3,8 +3,8 @@
 
 use glam::DVec3;
 
-use super::kind::RayKind;
 use super::lights::LitPoint;
+use super::ray_kind::RayKind;
 use super::record::{RayEnd, Shading, Stop, TracedRay};
 use super::recorder::Recorder;
 use super::surface::{missing_around, shading};

@@ -3,13 +3,12 @@
 use std::mem;
 
 use super::{Judge, found, term};
-use crate::explain::kind::RayKind;
+use crate::explain::ray_kind::RayKind;
 use crate::explain::record::{RayEnd, Shading, Stop};
 use crate::explain::verdict::{Finding, TermSource, Verdict};
 use crate::material::facets_reflectance;
 use crate::picture::luminance;
-use geometry::Ray;
-use geometry::Side;
+use geometry::{Ray, Side};
 use scene::{Emitter, Highlight, Light, Material, Rgb};
 
 /// A part of the light that leaves a surface.

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use super::Mixed;
 use super::alike::{Lights, Surfaces, TINY, likeness, load};
-use super::around::square;
 use super::features::Features;
+use super::neighbours::square;
 use super::plane::{MARGIN, Plane};
 use geometry::lanes::{Level, Simd, SimdBase, Singles, WIDTH, dispatch};
 

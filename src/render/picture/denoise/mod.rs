@@ -12,20 +12,20 @@
 //! the number of threads or the vectors of the machine.
 
 mod alike;
-mod around;
 mod features;
 mod guides;
 mod mean;
 mod mix;
+mod neighbours;
 mod plane;
 
 use rayon::prelude::*;
 
-use self::around::{REACH, bounds, slack};
 use self::features::Features;
 pub(crate) use self::guides::Guides;
 use self::mean::{Around, mean};
 use self::mix::{Kernel, mix};
+use self::neighbours::{REACH, bounds, slack};
 use self::plane::{Layout, Plane, stride};
 use crate::integrators::Guide;
 use geometry::IsCancelled;

@@ -1,4 +1,4 @@
-//! Packets of rays against a mesh.
+//! Intersection of packets of eight rays with a mesh.
 
 use super::{Instance, Mesh, MeshLine, TriangleRun};
 use crate::lanes::{Eight, Lanes, Simd, SimdBase, WIDTH, bits, each_bit, mask};

@@ -1,4 +1,4 @@
-//! What the pixels right around each one tell about it.
+//! What the immediate neighbours of each pixel tell about it.
 
 use rayon::prelude::*;
 
