@@ -19,10 +19,9 @@ use halflight::geometry::{Aabb, Affine, Instance, Mesh, Shape, TriangleRuns};
 use halflight::language::{self, FileKind, Language};
 use halflight::obj;
 use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::DEFAULT_DEPTH;
 use halflight::scene::{
-    Camera, Emitter, Focus, Images, Lens, Light, Material, Meshes, Object, Rendering, Rgb, Scene,
-    Setting, Size,
+    Camera, DEFAULT_DEPTH, Emitter, Focus, Images, Lens, Light, Material, Meshes, Object,
+    Rendering, Rgb, Scene, Setting, Size,
 };
 
 /// The number of timed runs; the median is printed.

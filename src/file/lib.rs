@@ -31,8 +31,9 @@ pub use current::{absolute, has_folder, regain_folder};
 pub use digest::Digest;
 pub use lock::{Lock, lock};
 pub use replace::{Content, deliver, replace};
-pub use target::end_of_links;
-pub use target::{check_replaceable, check_target, directory_of, is_same_target, no_such_folder};
+pub use target::{
+    check_replaceable, check_target, directory_of, end_of_links, is_same_target, no_such_folder,
+};
 pub use version::{FileId, Version};
 
 /// The largest readable file, in bytes: positions in a text are 32-bit.

@@ -5,8 +5,9 @@ use std::io::{BufReader, ErrorKind, Read, Seek};
 use std::panic::{self, AssertUnwindSafe};
 
 use image::error::UnsupportedErrorKind;
-use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
-use image::{Limits, Rgba};
+use image::{
+    ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits, Rgba,
+};
 
 use super::exr_colours::read_colours;
 use super::input::Input;

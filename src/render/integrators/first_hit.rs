@@ -5,8 +5,7 @@ use glam::DVec3;
 use super::probe::{Sample, SampleResult};
 use crate::job::{Aov, NO_OBJECT};
 use crate::world::{Dependencies, World};
-use geometry::Ray;
-use geometry::Side;
+use geometry::{Ray, Side};
 use scene::{Integrator, Rgb};
 
 /// Computes an AOV at the first surface that a camera ray hits within `reach`; the ray starts

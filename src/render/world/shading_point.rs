@@ -7,8 +7,7 @@ use glam::DVec3;
 use super::World;
 use super::intersect::Nearest;
 use crate::material::Point;
-use geometry::Ray;
-use geometry::Side;
+use geometry::{Ray, Side};
 use scene::Material;
 
 impl World {

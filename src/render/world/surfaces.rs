@@ -7,9 +7,8 @@ use glam::DVec3;
 use super::World;
 use super::intersect::{Nearest, NearestHits};
 use crate::material::Point;
-use geometry::Side;
 use geometry::lanes::{Eight, Lanes, Row, Simd, Vector, WIDTH, bits, dispatch, each_bit, mask};
-use geometry::{Packet, Rays, Shape, Solid, Surface, Surfaces, sphere_surfaces};
+use geometry::{Packet, Rays, Shape, Side, Solid, Surface, Surfaces, sphere_surfaces};
 use scene::Material;
 
 /// Up to eight surface points, in memory layout; lanes of rays that miss are undefined.
@@ -25,7 +24,7 @@ pub(crate) struct HitPoints {
 }
 
 impl HitPoints {
-    /// Those of a packet whose rays all miss.
+    /// The points of a packet whose rays all miss.
     const NONE: Self = Self {
         surface: Surfaces {
             point: Vector::repeat(DVec3::ZERO),

@@ -9,12 +9,10 @@ use super::{Definition, Drawn, Lowering, shapes};
 use crate::dat::origins::ObjectPlace;
 use crate::dat::table::{HALF_SPACE, OPERATIONS, ObjectKind, RecordKind};
 use crate::record::what;
-use crate::report::Name;
-use crate::report::{number_of, quoted};
+use crate::report::{Name, number_of, quoted};
 use crate::table::{Category, Range, SIZES};
 use crate::words::Words;
-use geometry::Node as CsgNode;
-use geometry::{Csg, Quadric, Shape, Solid};
+use geometry::{Csg, Node as CsgNode, Quadric, Shape, Solid};
 use scene::Object;
 use text::{Diagnostic, Span, counted};
 

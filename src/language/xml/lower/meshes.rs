@@ -11,9 +11,9 @@ use crate::table::SIZES;
 use crate::xml::origins::{NamedPlace, What};
 use geometry::{Instance, Shape};
 use obj::{Edges, Finding, Map, Model};
-use scene::beside;
 use scene::{
     Dielectric, Faces, Gloss, Highlight, Maps, Material, Mirror, NoMesh, Pattern, Rgb, Texture,
+    beside,
 };
 use text::{Cited, Diagnostic, Span};
 

@@ -4,8 +4,7 @@ use super::surface::reflectance;
 use super::{DARK, Judge, found};
 use crate::explain::record::{LightTerm, Shading, UnlitReason};
 use crate::explain::verdict::{Finding, Verdict, angle};
-use geometry::Side;
-use geometry::{Ray, normalise};
+use geometry::{Ray, Side, normalise};
 use scene::{Emitter, Integrator, Light, Rgb, Scene};
 
 /// Missing light at a surface.

@@ -13,8 +13,7 @@ use crate::integrators::vertex::Vertex;
 use crate::light::Sky;
 use crate::sampling::Densities;
 use crate::world::{Nearest, World};
-use geometry::Ray;
-use geometry::Side;
+use geometry::{Ray, Side};
 use scene::Rgb;
 
 /// The part of an emitter toward which a shadow ray goes.

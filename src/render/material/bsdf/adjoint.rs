@@ -4,18 +4,16 @@
 //! follow shading normals; the factors on a photon's flux make both estimate the same light (Veach,
 //! "Robust Monte Carlo Methods for Light Transport Simulation", 1997, chapter 5). With l the
 //! direction toward where a photon came from, v that in which it leaves, H the normal that turns it
-//! and G the geometric one, they are |l·H| |v·G| / (|l·G| |v·H|), and at a boundary the square of the index on
-//! the side of l over that on the side of v.
-//! Directions that facets fold back to the surface are taken as if that were symmetric, which it is
-//! for cones.
+//! and G the geometric one, they are |l·H| |v·G| / (|l·G| |v·H|), and at a boundary the square of the
+//! index on the side of l over that on the side of v. Directions that facets fold back to the surface
+//! are taken as if that were symmetric, which it is for cones.
 
 use glam::DVec3;
 
 use super::Bsdf;
 use crate::material::{Point, Refraction, folded, reflect, refraction_indices, spread, strength};
 use crate::sampling::{Purpose, Sampler};
-use geometry::Ray;
-use geometry::Side;
+use geometry::{Ray, Side};
 use scene::Rgb;
 
 /// How a photon goes on from a surface.
