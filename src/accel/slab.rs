@@ -1,7 +1,7 @@
 //! Slab tests of rays against boxes, in single precision: half the work of double precision, and
 //! boxes are stored in single precision anyway.
 //!
-//! # How nothing is missed
+//! # Why no box is missed
 //!
 //! A ray's origin is enclosed in an interval, and each plane is tested against the end that
 //! enlarges its box. With u = 2⁻²⁴, a distance (plane − origin) · (1 / direction) then has three

@@ -20,7 +20,7 @@ pub fn fingerprint(text: &str, found: &BTreeMap<String, PathBuf>) -> Result<Stri
 pub struct FileDigests(Vec<[String; 2]>);
 
 impl FileDigests {
-    /// Those of files by their names.
+    /// The digests of files by their names.
     ///
     /// # Errors
     ///

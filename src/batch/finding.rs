@@ -108,7 +108,7 @@ pub(super) struct Text<'t> {
     pub(super) messages: Messages,
     /// The name of its file.
     pub(super) path: &'t Path,
-    /// Whether the name belongs into the message.
+    /// Whether the name belongs in the message.
     pub(super) naming: Naming,
     /// The text, lowered; `None` if it is no longer in memory.
     pub(super) source: Option<&'t Source>,

@@ -248,7 +248,7 @@ mod tests {
         }
     }
 
-    /// That of a picture.
+    /// The progress of a single picture.
     fn alone(progress: &Progress, begun: f64) -> Whole {
         Reporter::new(ProgressStyle::Off)
             .begun(begun)

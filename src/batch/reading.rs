@@ -90,7 +90,7 @@ impl Reading {
     }
 
     /// Reads a scene and the files it references, and prints all findings, including those about the
-    /// resulting picture, with `over` in precedence to the text's settings, if given.
+    /// resulting picture, where `over`, if given, takes precedence over the text's settings.
     pub(super) fn load(
         &self,
         messages: Messages,

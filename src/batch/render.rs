@@ -53,7 +53,7 @@ pub fn render(asked: Render) -> Result<(), Error> {
     done.inspect_err(|error| messages.error(error))
 }
 
-/// What is to be done. Nothing about it is left to decide.
+/// What is to be done; only the frames of sequences are still to be planned.
 enum Plan {
     /// Print about how many bytes of memory a picture would take.
     Estimate(u64),

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The signals that stop a render that can be continued, and their names. `SIGUSR1` is what Slurm's
-/// `--signal` is mostly set to, to warn of the end of the time.
+/// `--signal` is usually set to, to warn that time is running out.
 #[cfg(unix)]
 const SIGNALS: [(i32, &str); 4] = [
     (signal_hook::consts::SIGHUP, "SIGHUP"),

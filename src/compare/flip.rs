@@ -109,7 +109,7 @@ struct Features {
 }
 
 impl Features {
-    /// Those of the achromatic plane.
+    /// The features of the achromatic plane.
     fn of(y: &Plane) -> Self {
         // Half the width of 0.082 degrees of a detector.
         let deviation = 0.5 * 0.082 * DENSITY;

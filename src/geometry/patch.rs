@@ -1,4 +1,4 @@
-//! Parts of surfaces, in the form in which points of them are chosen.
+//! Parts of surfaces, in the form that sampling points on them needs.
 
 use glam::DVec3;
 

@@ -147,7 +147,7 @@ impl Affine {
     /// Clips crossings to the bounds of the shape if the frame is ill-conditioned.
     ///
     /// Rounding may then move a crossing off the shape. A crossing outside the box must not count,
-    /// as a bvh finds the shape inside its box only.
+    /// because a BVH finds a shape only inside its box.
     #[inline(always)]
     pub(super) fn clipped<N: Lanes>(
         &self,

@@ -23,7 +23,7 @@
 //! | [`engine`] | films traced tile by tile in the background, or block by block; unfinished pictures |
 //! | [`explain`] | every ray behind a sample, recorded by driving the same integrators |
 //!
-//! # The way of a picture
+//! # How a picture is made
 //!
 //! A [`Renderer`] hands a job to its worker (`engine/worker.rs`), which builds a [`world`] and fills the
 //! tiles of a film pass by pass (`engine/tracing.rs`, `engine/film/mod.rs`). A frame context generates the

@@ -120,7 +120,7 @@ impl OldForm {
     const PART: &str = "halflight part 1";
     pub(super) const TRACES: [&str; 2] = ["halflight trace 1", "halflight trace 2"];
 
-    /// That of a file that begins with this text, if it is one.
+    /// The old form that this text begins with, if any.
     pub(super) fn of(text: &str) -> Option<Self> {
         let mut lines = text.lines();
         let name = lines.next()?;
@@ -128,11 +128,15 @@ impl OldForm {
             return None;
         }
         let version = lines.next()?.strip_prefix("version ")?;
-        let is_number = |byte: &u8| byte.is_ascii_alphanumeric() || b".-+".contains(byte);
-        version.as_bytes().iter().all(is_number).then(|| Self {
-            name: name.to_owned(),
-            version: version.to_owned(),
-        })
+        let is_version_byte = |byte: &u8| byte.is_ascii_alphanumeric() || b".-+".contains(byte);
+        version
+            .as_bytes()
+            .iter()
+            .all(is_version_byte)
+            .then(|| Self {
+                name: name.to_owned(),
+                version: version.to_owned(),
+            })
     }
 }
 

@@ -1,4 +1,4 @@
-//! The picture that parts make together.
+//! Merges parts into one picture, or says which shards are incomplete.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;

@@ -21,8 +21,8 @@ impl Numbers {
         }
     }
 
-    /// Those of all numbers from the first to the last that leave the shard's index when divided by
-    /// the number of shards.
+    /// The numbers from the first to the last that leave the shard's index when divided by the number of
+    /// shards.
     pub(super) fn of_shard(self, Shard { index, count }: Shard) -> Self {
         let skipped = (index + count - self.first % count) % count;
         Self {

@@ -1,4 +1,4 @@
-//! What formulas are made of that are written once, for one number and for eight side by side.
+//! Numbers for formulas that are written once, and evaluated for one number or for eight side by side.
 //!
 //! The same operations in the same order on each lane give the same bits as on one number alone,
 //! whatever vectors the machine has: no operation here depends on its neighbours, and products are

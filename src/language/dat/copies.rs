@@ -75,7 +75,7 @@ impl Identity {
 #[derive(Debug)]
 pub(super) struct Copies {
     text: String,
-    /// Those of each record.
+    /// The identities of each record.
     identities: Vec<Vec<Identity>>,
     edits: Vec<Edit>,
 }

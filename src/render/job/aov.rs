@@ -1,4 +1,4 @@
-//! Arbitrary output variables: what else than light a picture shows.
+//! Arbitrary output variables: what a picture can show other than light.
 
 /// An arbitrary output variable: a property of the first surface under a pixel, of the samples of
 /// its light, or a share of the light.

@@ -23,7 +23,7 @@ macro_rules! settings {
         }
 
         impl Settings {
-            /// Those of a whole picture of light, with defaults for what is not asked for.
+            /// The settings of a whole picture of light, with defaults for what is not asked for.
             pub fn new(size: Size, asked: &Rendering) -> Self {
                 Self {
                     size,

@@ -55,7 +55,7 @@ pub(crate) struct Appearance {
 }
 
 impl Appearance {
-    /// That of linear values after the exposure, brightened by further stops.
+    /// The appearance of linear values after the exposure, brightened by further stops.
     pub(crate) fn of(
         values: &[[f32; 3]],
         shown: &Shown,

@@ -97,7 +97,7 @@ impl Progress {
         }
     }
 
-    /// That of a picture of which nothing is traced.
+    /// The progress of a picture of which nothing is traced.
     const COMPLETE: Self = Self {
         pass: 1,
         passes: 1,

@@ -38,7 +38,7 @@ pub struct PictureMetadata {
     more: usize,
 }
 
-/// How much of what cannot be used is named.
+/// How many unusable entries are named.
 const NAMED: usize = 3;
 
 /// More bytes than any value has: a view of numbers that are written without exponents.
@@ -47,10 +47,10 @@ const LONGEST_VALUE: usize = 8192;
 /// The most characters named of an entry that cannot be used.
 const LONGEST: usize = 40;
 
-/// Sets what an entry says; `None` if its value is none.
+/// Sets a field from its entry's text; `None` if the text is invalid.
 type Take = fn(&mut PictureMetadata, &str) -> Option<()>;
 
-/// Sets what is `None` if the value is none.
+/// Sets an optional field; `None`, leaving it as it was, if the value is invalid.
 fn set<T>(place: &mut Option<T>, value: Option<T>) -> Option<()> {
     *place = Some(value?);
     Some(())
@@ -134,7 +134,7 @@ impl PictureMetadata {
         metadata
     }
 
-    /// Takes the value of an entry; `None` if it is none.
+    /// Takes the value of an entry; `None` if the entry is unknown or its value invalid.
     fn take(&mut self, name: &str, value: &str) -> Option<()> {
         let mut own = PICTURE.iter().chain(FRAME);
         if let Some((_, take)) = own.find(|(own, _)| *own == name) {

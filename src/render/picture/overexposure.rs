@@ -20,12 +20,12 @@ pub struct Overexposure {
 }
 
 impl Overexposure {
-    /// That of linear colours after the exposure.
+    /// The overexposure of linear colours after the exposure.
     pub fn of(values: &[[f32; 3]]) -> Self {
         Self::of_all(values, |value| Rgb::from(value.map(f64::from)))
     }
 
-    /// That of values, as linear colours after the exposure.
+    /// The overexposure of values, which `linear` turns into linear colours after the exposure.
     pub(crate) fn of_all<T: Sync>(values: &[T], linear: impl Fn(&T) -> Rgb + Sync) -> Self {
         /// Pixels counted by a thread at once.
         const CHUNK: usize = 1 << 14;
@@ -59,7 +59,7 @@ impl Excess {
         excess
     }
 
-    /// That of no pixels.
+    /// The counts of no pixels.
     const NONE: Self = Self {
         counts: [0; HALVES],
         brightest: 0.0,
@@ -77,7 +77,7 @@ impl Excess {
         })
     }
 
-    /// That of a picture of so many pixels.
+    /// The overexposure of a picture of so many pixels.
     pub(crate) fn over(&self, pixels: usize) -> Overexposure {
         let above: usize = self.counts.iter().sum();
         // A darker exposure takes the lowest bins below 1.

@@ -22,7 +22,7 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// That of the picture of a job, whose scene has this digest, without layers.
+    /// The provenance of a job's picture, whose scene has this digest, without layers.
     pub fn of(job: &Job, scene: String) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -35,8 +35,8 @@ impl Provenance {
         }
     }
 
-    /// That of the film behind it, which other pictures may show: without the number of samples, and
-    /// without what is made of the film afterwards.
+    /// The provenance of the film behind it, which other pictures may show: without the number of samples,
+    /// and without what is made of the film afterwards.
     #[must_use]
     pub fn of_film(&self) -> Self {
         Self {

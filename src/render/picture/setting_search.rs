@@ -1,7 +1,8 @@
 //! Small trial pictures that show what is wrong with a picture as a whole, and which render setting
-//! mends it.
+//! fixes it.
 //!
-//! They have the same samples whatever the picture has, so that the advice does not depend on those.
+//! Trials take the same samples whatever the picture's settings, so that the advice does not depend on
+//! those.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -56,7 +57,7 @@ pub enum Fault {
     WithoutPhotons,
 }
 
-/// What is wrong with a picture, and what mends it.
+/// What is wrong with a picture, and what fixes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Advice {
     /// What is wrong.
@@ -78,7 +79,7 @@ enum Trial {
     With(Rendering),
 }
 
-/// The search for the render setting that mends a picture, a trial picture after the other.
+/// The search for the render setting that fixes a picture, a trial picture after the other.
 #[derive(Clone, Debug)]
 pub struct SettingSearch {
     /// The settings of the picture.
@@ -291,7 +292,7 @@ impl SettingSearch {
         sides.iter().copied().find(|&side| trial(side).permits())
     }
 
-    /// Leaves out the candidates that cannot mend what is wrong.
+    /// Leaves out the candidates that cannot fix what is wrong.
     fn keep_what_may_help(&mut self) {
         let fault = self.fault;
         self.left.retain(|change| {
@@ -368,7 +369,7 @@ fn is_small(scene: &Scene) -> bool {
     all <= MOST_TRIANGLES && scene.lights.len() <= MOST_LIGHTS
 }
 
-/// The settings to try, the last one first: whatever may mend one fault or another.
+/// The settings to try, the last one first: whatever may fix one fault or another.
 fn candidates(scene: &Scene, settings: &Settings) -> Vec<Rendering> {
     let traces_paths = settings.integrator.traces_paths();
     let mut left: Vec<Rendering> = Vec::new();

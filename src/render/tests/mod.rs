@@ -212,7 +212,7 @@ fn white_light(position: [f64; 3]) -> Light {
     Light::point(position.into(), Rgb::ONE)
 }
 
-/// Those of path tracing, without any that a scene would have to ask for.
+/// The world settings of path tracing, without any that a scene would have to ask for.
 const PATHS: WorldSettings = WorldSettings {
     integrator: Integrator::Path,
     falloff: FalloffRule::None,

@@ -14,7 +14,7 @@ pub(super) struct Traced {
     pub(super) maps: u32,
 }
 
-/// Those of path tracing with photons.
+/// The world settings of path tracing with photons.
 pub(super) const PHOTONS: WorldSettings = PATHS;
 
 pub(super) fn world_by(scene: &Scene, rules: WorldSettings) -> World {

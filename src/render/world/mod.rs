@@ -108,7 +108,7 @@ pub(crate) struct WorldSettings {
 }
 
 impl WorldSettings {
-    /// Those of these settings.
+    /// The part of a picture's settings that the preparation of its scene depends on.
     pub(crate) fn of(settings: &Settings) -> Self {
         Self {
             integrator: settings.integrator,

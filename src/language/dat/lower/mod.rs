@@ -106,7 +106,7 @@ enum Drawn {
     Results,
     /// All, as requested at this place.
     All(Span),
-    /// Those with these IDs.
+    /// The objects with these IDs.
     Listed(Vec<(i64, Span)>),
 }
 

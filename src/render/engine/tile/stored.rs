@@ -17,7 +17,7 @@ pub struct PixelHistory {
 }
 
 impl PixelHistory {
-    /// That of a pixel of which nothing is recorded: it depends on everything.
+    /// The history of a pixel of which nothing is recorded: it depends on everything.
     pub(crate) const UNKNOWN: Self = Self {
         touched: u64::MAX,
         rays: u32::MAX,

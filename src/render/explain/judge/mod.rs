@@ -1,8 +1,8 @@
 //! Verdicts over a recorded sample.
 //!
 //! What is recorded says what happened; a verdict says which part of it matters. Where a pixel is
-//! dark, the parts that could have lit it come first, by how much they would have added; elsewhere
-//! what did add most.
+//! dark, the parts that could have lit it come first, by how much they would have added; elsewhere, the
+//! parts that added most.
 
 mod camera;
 mod lights;

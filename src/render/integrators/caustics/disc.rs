@@ -1,10 +1,10 @@
-//! What of the disc around a point, in which photons are gathered, lies on the surface of the point:
-//! walls, edges and folds cut it, and photons arrive on the rest alone.
+//! The part of a point's gathering disc that lies on the point's own surface: walls, edges and folds cut
+//! the disc, and photons arrive on the rest alone.
 //!
 //! A place of the disc is reached by a ray that rises a little from the point to above the place, and
 //! one straight down from there to the surface. Photons count where both pass, and the area of the
 //! places where both pass is what their kernel is divided by: whatever stands in the way, photons and
-//! area are those of one region. With the kernel shrinks what the disc leaves of a bias.
+//! area are those of one region. The bias that the disc leaves shrinks with the kernel.
 
 use std::cell::Cell;
 use std::f64::consts::TAU;
@@ -16,8 +16,7 @@ use crate::integrators::vertex::Vertex;
 use crate::material::{Bsdf, Point};
 use crate::sampling::warp;
 use crate::world::{Nearby, Nearest, World};
-use geometry::Ray;
-use geometry::Side;
+use geometry::{Ray, Side};
 
 /// The least cosine between the normals of one surface: beyond, a fold ends it.
 pub(crate) const SAME: f64 = 0.7;

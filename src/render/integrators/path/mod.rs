@@ -1,8 +1,8 @@
 //! Path tracing (Kajiya, "The Rendering Equation", 1986): an unbiased estimate of radiance over up
-//! to `depth` bounces, without ambient light. Next event estimation samples all lights at each
-//! bounce, or one of them where there are many; for a light with a
-//! size it is combined with BSDF sampling by multiple importance sampling (Veach and Guibas,
-//! "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995).
+//! to `depth` bounces, without ambient light. Next event estimation samples all lights at each bounce,
+//! or one of them where there are many; for a light with a size it is combined with BSDF sampling by
+//! multiple importance sampling (Veach and Guibas, "Optimally Combining Sampling Techniques for Monte
+//! Carlo Rendering", 1995).
 
 mod emission;
 mod emitter_samples;

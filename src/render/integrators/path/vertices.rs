@@ -84,7 +84,7 @@ pub(crate) struct SphereSamples {
 pub(crate) struct Continuations {
     /// The lanes continued by a lobe.
     pub(crate) lobes: u32,
-    /// Those of them whose sampled direction can be followed.
+    /// The lanes among them whose sampled direction can be followed.
     pub(crate) lead_on: u32,
     pub(crate) rays: Rays<Row>,
     /// Factors on the throughput.

@@ -61,8 +61,9 @@ pub(crate) struct PhotonRules {
     /// Maximum bounces of a path.
     pub(crate) depth: u32,
     pub(crate) seed: u32,
-    /// Those of the world.
+    /// The falloff rule of the world.
     pub(crate) falloff: FalloffRule,
+    /// The gloss rule of the world.
     pub(crate) gloss: GlossRule,
 }
 
@@ -93,7 +94,7 @@ impl PhotonMaps {
 }
 
 impl PhotonRules {
-    /// Those of these settings; `None` without any photons.
+    /// The rules of these settings; `None` without any photons.
     pub(crate) fn of(settings: &Settings) -> Option<Self> {
         let has_photons = settings.integrator == Integrator::Photon && settings.surface().is_none();
         has_photons.then(|| Self {

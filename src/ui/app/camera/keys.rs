@@ -56,7 +56,7 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(BOTH, "list", &[key(Enter)], "back to the list").does(|shared| shared.enter(Mode::Select)),
 ];
 
-/// Those of the page of saved views.
+/// The keys of the page of saved views.
 #[rustfmt::skip]
 pub(crate) const OF_PAGE: &[Row<View>] = &[
     Key::new(PAGE, "accept", &[key(Enter)], "go there").does_in(go_to_view),

@@ -43,7 +43,7 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(LONG_LISTS, "page-up", &[key(PageUp)], "page up").does(|shared| list::turn_page(shared, -1)),
 ];
 
-/// Those of the list of errors.
+/// The keys of the list of errors.
 #[rustfmt::skip]
 pub(crate) const ERRORS: &[Row] = &[
     Key::new(These(&[Context::Errors]), "accept", &[key(Enter)], "go to the item").hint(10, "go there").does(list::go_to_error),

@@ -99,7 +99,7 @@ pub(crate) enum Outline {
 /// Which symbols are shown of what has no surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Symbols {
-    /// Those of the selected kind.
+    /// The symbols of the selected kind.
     #[default]
     Selected,
     /// All.

@@ -66,7 +66,7 @@ pub struct Shared {
     pub document: Document,
     /// The errors and warnings of the current text.
     pub diagnostics: Findings,
-    /// Those of them that were found in reading the text and its files.
+    /// The part of the diagnostics that was found in reading the text and its files.
     pub(crate) reported: Findings,
     /// The render settings suggested for the picture.
     pub suggestions: Suggestions,

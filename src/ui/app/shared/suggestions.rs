@@ -22,7 +22,7 @@ pub struct Suggestions {
     judged: Option<u64>,
 }
 
-/// Trials of what mends the preview.
+/// Trials of what fixes the preview.
 #[derive(Debug)]
 pub(crate) struct RunningTrials {
     pub(crate) next: SettingSearch,

@@ -136,9 +136,9 @@ const KEPT: TraceEnd = TraceEnd::Kept {
 /// The text at the end.
 #[derive(Clone, Copy, Debug)]
 enum Now {
-    /// That of the scene that is traced.
+    /// The text of the scene that is traced.
     Traced(&'static str),
-    /// That of another scene.
+    /// The text of another scene.
     Other(&'static str),
     Errors,
 }

@@ -26,11 +26,11 @@ pub use wrapping::Wrapping;
 /// How pictures are sent to the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Protocol {
-    /// That of kitty, Ghostty, Konsole and others: pictures below the text.
+    /// The protocol of kitty, Ghostty, Konsole and others: pictures below the text.
     Kitty,
-    /// That of iTerm2, `WezTerm`, mintty and others: pictures as contents of cells.
+    /// The protocol of iTerm2, `WezTerm`, mintty and others: pictures as contents of cells.
     Iterm,
-    /// That of DEC terminals, xterm, foot and others: 256 colours, as contents of cells.
+    /// The protocol of DEC terminals, xterm, foot and others: 256 colours, as contents of cells.
     Sixel,
 }
 
