@@ -20,6 +20,7 @@
 //! All bounds are relative: a scene scaled by a power of two gives the same tree and the same
 //! visits, unless it comes near the limits of `f32`.
 
+mod bins;
 mod build;
 mod node;
 mod overlap;

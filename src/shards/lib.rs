@@ -18,13 +18,15 @@ mod shard;
 #[cfg(test)]
 mod tests;
 mod traces;
+mod unmerged;
 mod writer;
 
 pub use contents::Contents;
 pub use header::{Difference, Header, OldForm};
-pub use merge::{Merged, Unmerged, merge, missing, ranges};
+pub use merge::{Merged, merge, missing};
 pub use reader::Unreadable;
 pub use record::Goal;
 pub use shard::{MOST_SHARDS, Shard};
 pub use traces::{NoTrace, Traces, find_part};
+pub use unmerged::{Unmerged, ranges};
 pub use writer::{Part, Refused, path_beside};
