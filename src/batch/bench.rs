@@ -167,10 +167,10 @@ fn measure(
         let objects = scene.objects.len();
         let job = tracing.job(scene, images, Frames::Live)?;
         let settings = job.settings;
-        times[2].push(first_picture(job.clone(), tracing.means.threads)?);
+        times[2].push(first_picture(job.clone(), tracing.execution.threads)?);
         let begun = Instant::now();
         let tracer =
-            BlockTracer::new(job, tracing.means.threads, &|| false)?.ok_or(Error::Stopped)?;
+            BlockTracer::new(job, tracing.execution.threads, &|| false)?.ok_or(Error::Stopped)?;
         times[1].push(begun.elapsed());
         let (took, rays) = trace(&tracer, settings.spp);
         times[3].push(took);
@@ -233,7 +233,7 @@ fn table(work: &Bench, tracing: &Tracing, rows: &[Row]) -> String {
     line(format!(
         "halflight {}, {} of {} cores, {}, {}, {} of memory",
         env!("CARGO_PKG_VERSION"),
-        tracing.means.threads,
+        tracing.execution.threads,
         machine.cores,
         machine.processor,
         machine.vectors,
@@ -324,7 +324,7 @@ fn object(work: &Bench, tracing: &Tracing, rows: &[Row]) -> Value {
             "vectors": machine.vectors,
             "memory": machine.memory,
         },
-        "threads": tracing.means.threads,
+        "threads": tracing.execution.threads,
         "runs": work.runs,
         "rows": rows.collect::<Value>(),
     })

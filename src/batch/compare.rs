@@ -160,7 +160,7 @@ fn trace(work: &Compare, path: &Path, picture: Option<(&Path, &Recorded)>) -> Re
     if let Some(as_recorded) = &as_recorded {
         as_recorded.tell(&job, own);
     }
-    let frame = Tracer::new(tracing.means).trace(job, None, || {})?;
+    let frame = Tracer::new(tracing.execution).trace(job, None, || {})?;
     let pixels = if holds_light {
         in_8_bits(&frame)
     } else {

@@ -74,7 +74,7 @@ fn try_explain(work: &Explain) -> Result<(), Error> {
     let is_of_picture = words.verdicts[0].may_be_of_picture();
     let suspect = is_of_picture.then(|| Suspect::of_scene(job, &loaded.prospects));
     if let Some(suspect) = suspect.flatten() {
-        suspect.print(&text, || Tracer::new(work.tracing.means));
+        suspect.print(&text, || Tracer::new(work.tracing.execution));
     }
     Ok(())
 }

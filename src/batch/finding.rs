@@ -179,7 +179,7 @@ pub(super) fn print_of_scene(path: &Path, loaded: &mut Loaded, tracing: &Tracing
             source: Some(&loaded.source),
             prospects: &loaded.prospects,
         };
-        suspect.print(&text, || Tracer::new(tracing.means));
+        suspect.print(&text, || Tracer::new(tracing.execution));
     }
 }
 

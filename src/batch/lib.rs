@@ -50,7 +50,7 @@ pub use render::{
 };
 pub use show::{Show, show};
 pub use signals::Signal;
-pub use tracing::{Means, Tracing};
+pub use tracing::{Execution, Tracing};
 pub use track::MAX_FRAMES;
 
 /// Formats errors in a text for standard error, each with its place, an excerpt and a hint.

@@ -30,7 +30,7 @@ use std::path::PathBuf;
 
 use super::output::{Output, Target};
 use super::stats::Times;
-use super::tracing::{Means, Still};
+use super::tracing::{Execution, Still};
 use super::{Error, stdout};
 use image_file::{ImageFormat, MovieFormat, Pattern};
 use language::{Prospect, Source};
@@ -48,7 +48,7 @@ pub use arguments::{
 /// closes the pipe early is not an error. If interrupted, leaves of each file either the old or the
 /// new one, see [`deliver`](file::deliver).
 pub fn render(asked: Render) -> Result<(), Error> {
-    let messages = asked.tracing.means.messages();
+    let messages = asked.tracing.execution.messages();
     let done = Plan::of(asked).and_then(Plan::carry_out);
     done.inspect_err(|error| messages.error(error))
 }
@@ -99,7 +99,7 @@ struct PicturePlan {
     /// What the scene's text shows of the picture.
     prospects: Vec<Prospect>,
     still: Still,
-    means: Means,
+    execution: Execution,
     /// Where the picture goes, unless only a part of it is traced.
     target: Target,
     /// Where figures about the render go.

@@ -43,20 +43,20 @@ pub struct Tracing {
     pub layers: Vec<Aov>,
     /// Whether to reduce the noise of light.
     pub denoise: bool,
-    /// By what it is traced.
-    pub means: Means,
+    /// How the work is run.
+    pub execution: Execution,
 }
 
-/// By what pictures are traced, and how their progress is shown.
+/// How work is run: its threads, and how progress is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Means {
+pub struct Execution {
     /// The number of tracing threads.
     pub threads: usize,
     /// How the progress is shown.
     pub progress: ProgressStyle,
 }
 
-impl Means {
+impl Execution {
     /// How messages beside the progress are written.
     pub(super) fn messages(self) -> Messages {
         Messages::beside(self.progress)
@@ -99,17 +99,17 @@ pub(super) struct Tracer {
 }
 
 impl Tracer {
-    pub(super) fn new(means: Means) -> Self {
+    pub(super) fn new(execution: Execution) -> Self {
         let (wake, woken) = mpsc::channel();
         // Starting its threads before reading the scene was no faster.
-        let renderer = Renderer::new(Threads::Exactly(means.threads), move || {
+        let renderer = Renderer::new(Threads::Exactly(execution.threads), move || {
             // This fails only while the renderer is being dropped.
             let _ = wake.send(());
         });
         Self {
             renderer,
             woken,
-            style: means.progress,
+            style: execution.progress,
             signals: Signals::default(),
         }
     }
@@ -212,7 +212,7 @@ impl Tracing {
             aov: None,
             layers: Vec::new(),
             denoise: false,
-            means: Means {
+            execution: Execution {
                 threads: thread::available_parallelism().map_or(1, NonZero::get),
                 progress: ProgressStyle::Off,
             },

@@ -130,7 +130,7 @@ impl RenderArguments {
         };
         let layers = checked(self.content.layers, &work)?;
         let mut tracing = self.tracing.with(layers, self.content.denoise)?;
-        tracing.means.progress = self.progress.value();
+        tracing.execution.progress = self.progress.value();
         Ok(Render {
             work,
             tracing,

@@ -10,7 +10,7 @@ use clap::Args;
 use super::choices::AovChoice;
 use super::rendering::RenderingArguments;
 use super::shared::{spp_range, threads_range, whole_number};
-use batch::{Means, ProgressStyle, Tracing};
+use batch::{Execution, ProgressStyle, Tracing};
 use render::{Aov, Region, can_denoise};
 use scene::{Rendering, Size, Viewpoint};
 use text::parse_duration;
@@ -92,9 +92,9 @@ impl TracingArguments {
             },
             time: self.time,
             aov: self.aov.map(AovChoice::value),
-            means: Means {
-                threads: self.threads.map_or(samples.means.threads, usize::from),
-                ..samples.means
+            execution: Execution {
+                threads: self.threads.map_or(samples.execution.threads, usize::from),
+                ..samples.execution
             },
             ..samples
         }
@@ -113,7 +113,7 @@ impl SampleArguments {
             aov: None,
             layers: Vec::new(),
             denoise: false,
-            means: Means {
+            execution: Execution {
                 threads: default_threads(|name| env::var(name).ok()),
                 progress: ProgressStyle::default(),
             },

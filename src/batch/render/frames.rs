@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::plan::{self, FramePlan};
-use super::{Error, Finished, Means, MoviePlan, NumberedPlan, Output};
+use super::{Error, Execution, Finished, MoviePlan, NumberedPlan, Output};
 use crate::progress::{self, Place};
 use crate::signals::Signals;
 use crate::tracing::Tracer;
@@ -19,7 +19,7 @@ pub(super) fn numbered(mut plan: NumberedPlan) -> Result<(), Error> {
     let signals = Signals::noted().unwrap_or_default();
     let is_again = plan.finished == Finished::Rendered;
     let numbers = plan.sequence.numbers;
-    let mut frames = Frames::new(plan.sequence.means(), numbers.count, signals.clone());
+    let mut frames = Frames::new(plan.sequence.execution(), numbers.count, signals.clone());
     for number in numbers.iter() {
         let stopped = |error| match (error, signals.last()) {
             (Error::Stopped, Some(signal)) => Error::KeptFrames {
@@ -85,7 +85,7 @@ enum Failure {
 fn write_movie(plan: &mut MoviePlan, out: &mut dyn Write) -> Result<(), Failure> {
     let (format, rate, mut numbers) = (plan.format, plan.rate, plan.sequence.numbers.iter());
     let count = plan.sequence.numbers.count;
-    let mut frames = Frames::new(plan.sequence.means(), count, Signals::default());
+    let mut frames = Frames::new(plan.sequence.execution(), count, Signals::default());
     let mut next = |number| {
         let job = plan::movie_frame(plan, number)?;
         frames.trace(number, job)
@@ -107,16 +107,16 @@ fn write_movie(plan: &mut MoviePlan, out: &mut dyn Write) -> Result<(), Failure>
 /// Traces one frame after the other, and tells how far all are.
 struct Frames {
     tracer: Tracer,
-    means: Means,
+    execution: Execution,
     /// The place of the next.
     place: Place,
 }
 
 impl Frames {
-    fn new(means: Means, count: u32, signals: Signals) -> Self {
+    fn new(execution: Execution, count: u32, signals: Signals) -> Self {
         Self {
-            tracer: Tracer::new(means).stopped_by(signals),
-            means,
+            tracer: Tracer::new(execution).stopped_by(signals),
+            execution,
             place: Place {
                 frame: 0,
                 before: 0,
@@ -152,8 +152,8 @@ impl Frames {
             let was = if skipped == 1 { "was" } else { "were" };
             let frames = counted(skipped as usize, "frame");
             let note = format!("{frames} {was} already finished");
-            self.means.messages().note(&note);
+            self.execution.messages().note(&note);
         }
-        progress::finish_sequence(self.means.progress, all, begun.elapsed());
+        progress::finish_sequence(self.execution.progress, all, begun.elapsed());
     }
 }

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use super::arguments::{Existing, Parts};
 use super::tally::Tally;
-use super::{Error, Means, Output};
+use super::{Error, Execution, Output};
 use crate::progress::Reporter;
 use crate::signals::Signals;
 use render::{
@@ -95,7 +95,7 @@ impl PartFile {
 
     /// Opens or creates it for this picture, and refuses one that has more samples already. From now on,
     /// a signal stops the tracing instead of the process.
-    pub(super) fn open(self, picture: Provenance, means: Means) -> Result<Opened, Error> {
+    pub(super) fn open(self, picture: Provenance, execution: Execution) -> Result<Opened, Error> {
         let Self { path, parts } = self;
         let shard = parts.shard;
         let header = Header { picture, shard };
@@ -110,7 +110,7 @@ impl PartFile {
             source,
         })?;
         let note = |what: &str| {
-            means
+            execution
                 .messages()
                 .note(&format!("{}: {what}", path.display()));
         };
@@ -149,7 +149,7 @@ impl PartFile {
             header,
             numbers,
             signals,
-            means,
+            execution,
             begun: Instant::now(),
             counts: Counts::default(),
         })
@@ -191,7 +191,7 @@ pub(super) struct Opened {
     /// The numbers of its blocks.
     numbers: Vec<u32>,
     signals: Signals,
-    means: Means,
+    execution: Execution,
     begun: Instant,
     /// The time that earlier processes spent.
     spent: Duration,
@@ -212,13 +212,13 @@ impl Opened {
         let blocks = self.part.blocks();
         let numbers = self.numbers.iter();
         let pixels = numbers.map(|&number| blocks.area(number)).sum();
-        let reporter = Reporter::new(self.means.progress);
+        let reporter = Reporter::new(self.execution.progress);
         if shard != Shard::WHOLE {
             reporter.finish(&traced);
             let blocks = counted(self.numbers.len(), "block");
             let path = self.path.display();
             let note = format!("shard {shard}: {blocks} with {spp} spp in {path}");
-            self.means.messages().note(&note);
+            self.execution.messages().note(&note);
             return Ok(Traced {
                 frame: None,
                 picture,
@@ -255,7 +255,7 @@ impl Opened {
             self.aim(spp)?;
             return Ok(spp);
         }
-        let tracer = BlockTracer::new(job, self.means.threads, &|| self.signals.arrived())?;
+        let tracer = BlockTracer::new(job, self.execution.threads, &|| self.signals.arrived())?;
         let Some(tracer) = tracer else {
             let none_begun = BTreeMap::new();
             return Err(self.stopped(self.tally(spp, &none_begun).done()));
@@ -336,7 +336,7 @@ impl Opened {
 
     /// Writes blocks as they come.
     fn write(&mut self, blocks: &Receiver<Block>, tally: &mut Tally) -> std::io::Result<()> {
-        let mut reporter = Reporter::new(self.means.progress).begun(tally.done());
+        let mut reporter = Reporter::new(self.execution.progress).begun(tally.done());
         let mut synced = Instant::now();
         while let Ok(block) = blocks.recv() {
             tally.add(&block);

@@ -1,7 +1,7 @@
 //! Renders a picture, or a part of one, as planned.
 
 use super::parts::Traced;
-use super::{Error, Means, PicturePlan, Way};
+use super::{Error, PicturePlan, Way};
 use crate::Messages;
 use crate::finding::{Naming, Suspect, Text, print_biases};
 use crate::stats::Stats;
@@ -14,14 +14,14 @@ use text::counted;
 
 /// Traces and writes a picture, says what is wrong with it, and writes the figures.
 pub(super) fn render(mut plan: PicturePlan, way: Way) -> Result<(), Error> {
-    let (still, means) = (plan.still, plan.means);
-    let messages = means.messages();
+    let (still, execution) = (plan.still, plan.execution);
+    let messages = execution.messages();
     let is_limited = matches!(still.job.limit, Some(Limit::Time(_)));
     // Kept to the end, so that its threads free memory while the picture is written.
     let mut tracer = None;
     let (traced, source) = match way {
         Way::Whole { source, found } => {
-            let tracer = tracer.insert(Tracer::new(means));
+            let tracer = tracer.insert(Tracer::new(execution));
             let is_digest_said = plan.target.format.has_metadata() || plan.stats.is_some();
             let mut digest = None;
             let mut kept = None;
@@ -45,7 +45,7 @@ pub(super) fn render(mut plan: PicturePlan, way: Way) -> Result<(), Error> {
     if let Some(frame) = &traced.frame
         && !still.layers.is_empty()
     {
-        let tracer = tracer.get_or_insert_with(|| Tracer::new(means));
+        let tracer = tracer.get_or_insert_with(|| Tracer::new(execution));
         layers = tracer.layers(&still, frame.progress.spp)?;
     }
     // Another reference to the job would keep the scene in memory until the end.
@@ -72,7 +72,7 @@ pub(super) fn render(mut plan: PicturePlan, way: Way) -> Result<(), Error> {
             source: source.as_ref(),
             prospects: &plan.prospects,
         };
-        suspect.print(&text, || tracer.unwrap_or_else(|| Tracer::new(means)));
+        suspect.print(&text, || tracer.unwrap_or_else(|| Tracer::new(execution)));
     }
     let Some(output) = &plan.stats else {
         return Ok(());
@@ -80,7 +80,7 @@ pub(super) fn render(mut plan: PicturePlan, way: Way) -> Result<(), Error> {
     let stats = Stats {
         scene: &plan.scene,
         picture: &traced.picture,
-        threads: means.threads,
+        threads: execution.threads,
         progress: traced.progress,
         pixels: traced.pixels,
         estimate: plan.estimate,

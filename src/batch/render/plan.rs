@@ -30,8 +30,8 @@ pub(super) fn picture(
     let part = check_outputs(&work)?;
     let mut times = Times::started();
     reading.begin()?;
-    let means = tracing.means;
-    let messages = means.messages();
+    let execution = tracing.execution;
+    let messages = execution.messages();
     let mut loaded = reading.load(messages, &work.scene, Some(&tracing.over()))?;
     let scene = loaded.take_scene()?;
     for output in work.outputs() {
@@ -61,10 +61,10 @@ pub(super) fn picture(
     }
     print_without_effect(messages, &tracing.over_text(), settings);
     let used = memory::used().unwrap_or(0);
-    let needed = |kept| memory_needed(&still, part.as_ref(), means.threads, kept);
+    let needed = |kept| memory_needed(&still, part.as_ref(), execution.threads, kept);
     if work.purpose == Purpose::Estimate {
         let needed = needed(photons_kept(&still.job));
-        return Ok(Plan::Estimate(estimate(used, needed, means.threads)));
+        return Ok(Plan::Estimate(estimate(used, needed, execution.threads)));
     }
     let needed = needed(None);
     check_memory(&still.job, needed)?;
@@ -78,7 +78,7 @@ pub(super) fn picture(
             let picture = still.provenance(fingerprint(source.text(), &read.found)?);
             Way::Part {
                 source: short(source),
-                part: Box::new(part.open(picture, means)?),
+                part: Box::new(part.open(picture, execution)?),
             }
         }
     };
@@ -86,10 +86,10 @@ pub(super) fn picture(
         scene: work.scene,
         prospects: loaded.prospects,
         still,
-        means,
+        execution,
         target: work.target,
         stats: work.stats,
-        estimate: estimate(used, needed, means.threads),
+        estimate: estimate(used, needed, execution.threads),
         times,
     };
     Ok(Plan::Picture(Box::new(plan), way))

@@ -9,7 +9,7 @@ use super::animated::Animated;
 use super::arguments::FrameSource;
 use super::numbers::Numbers;
 use super::shot::Shot;
-use super::{Error, Means, Output, Still};
+use super::{Error, Execution, Output, Still};
 use crate::{Reading, Tracing};
 use file::ReadError;
 use language::Language;
@@ -53,7 +53,7 @@ impl Sequence {
                 (vec![scene], Shows::Turns { shot, count })
             }
             FrameSource::Track { scene, track } => {
-                let messages = tracing.means.messages();
+                let messages = tracing.execution.messages();
                 let animated = Animated::new([&scene, &track], &reading, messages)?;
                 (vec![scene, track], Shows::Edits(Box::new(animated)))
             }
@@ -80,8 +80,8 @@ impl Sequence {
     }
 
     /// How the frames are traced.
-    pub(super) fn means(&self) -> Means {
-        self.tracing.means
+    pub(super) fn execution(&self) -> Execution {
+        self.tracing.execution
     }
 
     /// Frames per second, if that is said.

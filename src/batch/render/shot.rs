@@ -25,7 +25,7 @@ impl Shot {
         tracing: &Tracing,
         frames: Frames,
     ) -> Result<Self, Error> {
-        let messages = tracing.means.messages();
+        let messages = tracing.execution.messages();
         let mut loaded = reading.load(messages, path, Some(&tracing.over()))?;
         let scene = loaded.take_scene()?;
         if !loaded.read.is_whole() {
