@@ -162,15 +162,18 @@ pub enum Error {
     /// A signal stopped a sequence, whose finished frames are kept.
     #[error(
         "stopped by {} at frame {frame}; finished frames are kept: rerun {}to continue",
-        signal.name(), if *is_again { "without --again " } else { "" }
+        signal.name(), match finished {
+            Finished::Skipped => "",
+            Finished::Rendered => "without --again ",
+        }
     )]
     KeptFrames {
         /// The signal.
         signal: Signal,
         /// The number of the frame that was not finished.
         frame: u32,
-        /// Whether finished frames were rendered again.
-        is_again: bool,
+        /// What became of frames that were finished before.
+        finished: Finished,
     },
     /// The machine cannot trace the picture.
     #[error(transparent)]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::plan::{self, FramePlan};
-use super::{Error, Execution, Finished, MoviePlan, NumberedPlan, Output};
+use super::{Error, Execution, MoviePlan, NumberedPlan, Output};
 use crate::progress::{self, Place};
 use crate::signals::Signals;
 use crate::tracing::Tracer;
@@ -17,7 +17,7 @@ use text::counted;
 pub(super) fn numbered(mut plan: NumberedPlan) -> Result<(), Error> {
     // Without them, a signal ends the process, and finished frames are kept all the same.
     let signals = Signals::noted().unwrap_or_default();
-    let is_again = plan.finished == Finished::Rendered;
+    let finished = plan.finished;
     let numbers = plan.sequence.numbers;
     let mut frames = Frames::new(plan.sequence.execution(), numbers.count, signals.clone());
     for number in numbers.iter() {
@@ -25,7 +25,7 @@ pub(super) fn numbered(mut plan: NumberedPlan) -> Result<(), Error> {
             (Error::Stopped, Some(signal)) => Error::KeptFrames {
                 signal,
                 frame: number,
-                is_again,
+                finished,
             },
             (error, _) => error,
         };
