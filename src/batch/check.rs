@@ -22,7 +22,7 @@ pub struct Check {
 pub fn check(work: &Check) -> Result<(), Error> {
     let begun = work.reading.begin();
     begun.inspect_err(|error| Messages::Text.error(error))?;
-    let mut first = None;
+    let mut first_failure = None;
     let mut errors = 0;
     let mut warnings = 0;
     for path in &work.scenes {
@@ -32,18 +32,18 @@ pub fn check(work: &Check) -> Result<(), Error> {
                 errors += loaded.findings.errors();
                 warnings += loaded.findings.warnings();
                 if 0 < loaded.findings.errors() {
-                    first.get_or_insert(Error::Invalid { errors: 0 });
+                    first_failure.get_or_insert(Failure::Invalid);
                 }
                 finding::print_of_scene(path, &mut loaded, &Tracing::of_scene(), Naming::File);
             }
             Err(Error::Invalid { errors: more }) => {
                 errors += more;
-                first.get_or_insert(Error::Invalid { errors: 0 });
+                first_failure.get_or_insert(Failure::Invalid);
             }
             Err(error) => {
                 errors += 1;
                 Messages::Text.error(&error);
-                first.get_or_insert(error);
+                first_failure.get_or_insert(Failure::Unreadable(error));
             }
         }
     }
@@ -53,9 +53,17 @@ pub fn check(work: &Check) -> Result<(), Error> {
         counted(errors, "error"),
         counted(warnings, "warning"),
     ));
-    match first {
+    match first_failure {
         None => Ok(()),
-        Some(Error::Invalid { .. }) => Err(Error::Invalid { errors }),
-        Some(error) => Err(error),
+        Some(Failure::Invalid) => Err(Error::Invalid { errors }),
+        Some(Failure::Unreadable(error)) => Err(error),
     }
+}
+
+/// What is wrong with a scene.
+enum Failure {
+    /// It has errors, which are counted with those of the other scenes.
+    Invalid,
+    /// It cannot be read.
+    Unreadable(Error),
 }
