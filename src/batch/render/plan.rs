@@ -61,7 +61,10 @@ pub(super) fn picture(
     }
     print_without_effect(messages, &tracing.over_text(), settings);
     let used = memory::used().unwrap_or(0);
-    let needed = |kept| memory_needed(&still, part.as_ref(), execution.threads, kept);
+    let needed = |kept| match &part {
+        None => memory_of_whole(&still, kept),
+        Some(part) => memory_of_part(&still, part, execution.threads, kept),
+    };
     if work.purpose == Purpose::Estimate {
         let needed = needed(photons_kept(&still.job));
         return Ok(Plan::Estimate(estimate(used, needed, execution.threads)));
@@ -121,13 +124,15 @@ fn no_such_size(span: Span, reason: &str) -> Diagnostic {
     Diagnostic::error(span, message, "a smaller size").with_hint("or override it: --size WxH")
 }
 
-/// About how many bytes of memory a picture takes, besides its scene. `kept` are the photons of each map,
-/// if known.
-fn memory_needed(still: &Still, part: Option<&PartFile>, threads: usize, kept: Option<u64>) -> u64 {
-    let traced = match part {
-        None => memory_for(&still.job, kept),
-        Some(part) => part.memory_for(&still.job, threads, kept),
-    };
+/// About how many bytes of memory a picture takes that is traced as a whole, besides its scene. `kept` are
+/// the photons of each map, if known.
+fn memory_of_whole(still: &Still, kept: Option<u64>) -> u64 {
+    memory_for(&still.job, kept).saturating_add(still.memory_for_layers())
+}
+
+/// The same of a picture that is traced into a part file by these threads.
+fn memory_of_part(still: &Still, part: &PartFile, threads: usize, kept: Option<u64>) -> u64 {
+    let traced = part.memory_for(&still.job, threads, kept);
     traced.saturating_add(still.memory_for_layers())
 }
 
@@ -219,7 +224,7 @@ pub(super) fn frame(plan: &mut NumberedPlan, number: u32) -> Result<Option<Frame
     if let Some(reason) = format.refuses(job.settings.traced().size()) {
         return Err(Error::Refused(format!("frame {number}: {reason}")));
     }
-    check_memory(job, memory_needed(&still, None, 0, None))?;
+    check_memory(job, memory_of_whole(&still, None))?;
     Ok(Some(FramePlan {
         still,
         provenance,
