@@ -5,11 +5,11 @@ mod region;
 mod settings;
 pub(crate) mod settings_text;
 
+#[cfg(test)]
+pub(crate) use aov::AOVS;
 pub use aov::Aov;
 pub use region::{NoRegion, Region};
 pub use settings::Settings;
-#[cfg(test)]
-pub(crate) use settings_text::AOVS;
 pub(crate) use settings_text::{SAMPLES, aov_name, aov_of, is_added};
 
 use std::sync::Arc;

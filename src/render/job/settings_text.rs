@@ -1,6 +1,6 @@
 //! Settings as text, with the names and values of the command line's options.
 
-use super::aov::Aov;
+use super::aov::{AOVS, Aov};
 use super::settings::Settings;
 use scene::{RenderKey, Rendering, Size};
 
@@ -67,21 +67,6 @@ impl Settings {
         })
     }
 }
-
-/// The AOVs that are named without a number.
-pub(crate) const AOVS: &[Aov] = &[
-    Aov::Depth,
-    Aov::Normal,
-    Aov::Object,
-    Aov::Albedo,
-    Aov::Uv,
-    Aov::Side,
-    Aov::Cost,
-    Aov::Samples,
-    Aov::Noise,
-    Aov::Emission,
-    Aov::Indirect,
-];
 
 pub(crate) fn aov_name(aov: Aov) -> String {
     match aov {
