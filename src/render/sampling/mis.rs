@@ -46,6 +46,6 @@ pub(crate) fn power_heuristic<N: Lanes>(own: N, other: N) -> N {
 /// The multiple importance sampling weight over the density of a direction that was chosen by
 /// sampling what emits light, in each lane.
 #[inline(always)]
-pub(crate) fn share<N: Lanes>(by_light: N, by_path: N) -> N {
+pub(crate) fn weight_over_density<N: Lanes>(by_light: N, by_path: N) -> N {
     power_heuristic(by_light, by_path) / by_light
 }

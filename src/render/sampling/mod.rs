@@ -7,7 +7,7 @@ pub(crate) mod warp;
 
 pub(crate) use filter::FilterSampler;
 pub use mis::Densities;
-pub(crate) use mis::{power_heuristic, share};
+pub(crate) use mis::{power_heuristic, weight_over_density};
 pub(crate) use sampler::{Draws, Fours, Purpose, Sampler};
 #[cfg(test)]
 pub(crate) use warp::in_cone;

@@ -1,5 +1,5 @@
-//! What emits light but is no light, emission of objects and the environment, where a path or a
-//! shadow ray meets it. Paths that find it by chance are combined with
+//! Emission that does not come from the list of lights, that of objects and the environment, where a path
+//! or shadow ray meets it. Paths that find it by chance are combined with
 //! [next event estimation](super::emitter_samples) by multiple importance sampling, as for lights with a
 //! size.
 //!
@@ -21,8 +21,8 @@ use scene::Rgb;
 pub(crate) struct Target {
     /// The indices of the object and of the part of its surface.
     pub(crate) part: (u32, u32),
-    /// Whether the ray hits the front of the part.
-    pub(crate) is_front: bool,
+    /// The side of the part that the ray hits.
+    pub(crate) side: Side,
 }
 
 /// The emission of a surface, as far as it counts where a BSDF sample hits it, and the densities that
@@ -68,12 +68,11 @@ pub(crate) fn sent_by_object(
     let nearest = nearest?;
     let is_met = (nearest.object, nearest.hit.part) == target.part;
     let arrives = is_met && world.sphere_lights.nearest(ray, nearest.hit.t).is_none();
-    arrives.then(|| emitted(world, ray, nearest, target.is_front))
+    arrives.then(|| emitted(world, ray, nearest, target.side))
 }
 
 /// The emission of an object toward the start of a ray that hits it.
-fn emitted(world: &World, ray: &Ray, nearest: Nearest, is_front: bool) -> Rgb {
-    let side = if is_front { Side::Front } else { Side::Back };
+fn emitted(world: &World, ray: &Ray, nearest: Nearest, side: Side) -> Rgb {
     let unmapped = || (*ray, DVec3::Z);
     let (material, _) = world.material(nearest, unmapped);
     if material.is_lit(side) {

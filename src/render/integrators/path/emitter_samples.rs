@@ -35,7 +35,7 @@ struct EmitterRay {
     target: Option<Target>,
     /// See [`Aimed`].
     reflected: Rgb,
-    share: f64,
+    weight_over_density: f64,
 }
 
 /// What arrives along the shadow ray of an emitter.
@@ -206,7 +206,7 @@ impl EmitterSamples {
             for lane in each_bit(aimed.lanes) {
                 let target = Target {
                     part: choices.parts[lane],
-                    is_front: choices.front >> lane & 1 == 1,
+                    side: choices.side(lane),
                 };
                 let to_emitter = EmitterRay::new(batch, lane, &aimed, Some(target));
                 self.shadows
@@ -254,13 +254,13 @@ impl EmitterRay {
             ray: aimed.rays.get(lane),
             target,
             reflected: aimed.reflected.get(lane),
-            share: aimed.share.0[lane],
+            weight_over_density: aimed.weight_over_density.0[lane],
         }
     }
 
     /// What arrives, given what is sent along the ray.
     fn arrival(&self, distance: f64, emitted: Option<Rgb>) -> EmitterArrival {
-        let reflected = emitted.map(|emitted| self.reflected * emitted * self.share);
+        let reflected = emitted.map(|emitted| self.reflected * emitted * self.weight_over_density);
         EmitterArrival {
             at: self.at,
             distance,

@@ -12,7 +12,7 @@ use crate::integrators::direct::{LightGeometry, Shadow, sent_back, shadow, shado
 use crate::integrators::probe::{Probe, Sample};
 use crate::integrators::vertex::Vertex;
 use crate::light::{SphereLight, Spheres, incoming, light_sphere, luminous_sphere};
-use crate::sampling::{Purpose, Sampler, share};
+use crate::sampling::{Purpose, Sampler, weight_over_density};
 use crate::world::Occlusion;
 use geometry::Ray;
 use geometry::lanes::Vector;
@@ -192,7 +192,7 @@ fn of_object(probe: &Probe<'_>, vertex: &Vertex<'_>, bounce: u32, numbers: [f64;
     };
     let target = Target {
         part: (choice.object, choice.part),
-        is_front: choice.is_front,
+        side: choice.side,
     };
     let ray = vertex.point.leave(choice.toward);
     let emitted = || {
@@ -229,6 +229,6 @@ fn of_emitter(
         return Rgb::ZERO;
     }
     let by_path = density_of(probe, bsdf, scattered, bounce);
-    let reflected = |emitted| scattered.value * emitted * share(by_light, by_path);
+    let reflected = |emitted| scattered.value * emitted * weight_over_density(by_light, by_path);
     emitted().map_or(Rgb::ZERO, reflected)
 }

@@ -12,7 +12,7 @@ use crate::integrators::probe::BounceStage;
 use crate::integrators::vertex::Vertex;
 use crate::light::{Spheres, incoming_each, light_sphere};
 use crate::material::{BsdfSample, Component, Diffuse, LobeSamples, Point, power_each};
-use crate::sampling::{Fours, share, warp};
+use crate::sampling::{Fours, warp, weight_over_density};
 use geometry::lanes::{
     Eight, Lanes, Level, Row, Simd, Vector, WIDTH, bits, dispatch, each_bit, mask,
 };
@@ -53,7 +53,7 @@ pub(crate) struct Aimed {
     pub(crate) by_light: Row,
     pub(crate) by_path: Row,
     /// The multiple importance sampling weight over the density.
-    pub(crate) share: Row,
+    pub(crate) weight_over_density: Row,
 }
 
 /// Lights without a radiance sampled at surfaces, before their shadow rays are traced.
@@ -176,7 +176,7 @@ impl<'v, 'm> Vertices<'v, 'm> {
         let (toward, by_light) = (toward.load(simd), by_light.load(simd));
         let (reflected, density) = self.scatter(simd, lanes, toward);
         let by_path = self.lobes_chance.load(simd) * density;
-        let share = share(by_light, by_path);
+        let weight_over_density = weight_over_density(by_light, by_path);
         let is_dark = reflected.is_zero() | by_light.equals(by_light.all(0.0));
         Aimed {
             lanes: lanes & !bits::<S>(is_dark),
@@ -184,7 +184,7 @@ impl<'v, 'm> Vertices<'v, 'm> {
             reflected: reflected.store(),
             by_light: by_light.into(),
             by_path: by_path.into(),
-            share: share.into(),
+            weight_over_density: weight_over_density.into(),
         }
     }
 

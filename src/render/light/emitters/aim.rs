@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::sampling::warp;
 use geometry::lanes::{Eight, Lanes, Row, Simd, Vector};
-use geometry::{Ball, Flat, Parallelograms, Patch};
+use geometry::{Ball, Flat, Parallelograms, Patch, Side};
 
 /// A direction toward a part of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,8 +17,8 @@ pub(super) struct Aim {
     pub(super) reach: f64,
     /// See [`density`].
     pub(super) density: f64,
-    /// Whether it hits the front of the part.
-    pub(super) is_front: bool,
+    /// The side of the part that it hits.
+    pub(super) side: Side,
 }
 
 /// Allows for rounding of a distance.
@@ -59,7 +59,11 @@ pub(super) fn aim(patch: &Patch, from: DVec3, place: [f64; 2]) -> Option<Aim> {
         toward: aims.toward.into(),
         reach: aims.reach,
         density: aims.density,
-        is_front: aims.is_front,
+        side: if aims.is_front {
+            Side::Front
+        } else {
+            Side::Back
+        },
     })
 }
 
@@ -218,7 +222,7 @@ fn aim_at_ball(ball: &Ball, from: DVec3, place: [f64; 2]) -> Option<Aim> {
     toward.is_finite().then(|| Aim {
         toward,
         density: density_of_ball(ball, from, toward),
-        is_front: true,
+        side: Side::Front,
         // From the surface itself, the far side is seen.
         reach: SLACK * speed * (1.0 + offset.length()),
     })

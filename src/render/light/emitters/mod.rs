@@ -23,7 +23,7 @@ use crate::sampling::Fours;
 use aim::{Aim, Flats};
 use cone::{Cone, Reach};
 use geometry::lanes::{Lanes, Row, Simd, Vector, WIDTH, bits, each_bit, mask};
-use geometry::{Hit, Instance, IsCancelled, Patch, Ray, Shape};
+use geometry::{Hit, Instance, IsCancelled, Patch, Ray, Shape, Side};
 pub(crate) use many::ManyLights;
 use scene::{Faces, Material, Object, Rgb, Scene, Tinted};
 use tree::Tree;
@@ -84,8 +84,8 @@ pub(crate) struct Choice {
     pub(crate) reach: f64,
     /// The probability density of the choice per steradian.
     pub(crate) density: f64,
-    /// Whether it hits the front of the part.
-    pub(crate) is_front: bool,
+    /// The side of the part that it hits.
+    pub(crate) side: Side,
 }
 
 /// Directions toward parts of emitters, in lanes: see [`Choice`].
@@ -99,7 +99,7 @@ pub(crate) struct Choices {
     pub(crate) reach: Row,
     pub(crate) density: Row,
     /// The lanes that hit the front of the part.
-    pub(crate) front: u32,
+    front: u32,
 }
 
 impl Default for Choices {
@@ -122,7 +122,17 @@ impl Choices {
         self.toward.set(lane, choice.toward);
         self.reach.0[lane] = choice.reach;
         self.density.0[lane] = choice.density;
-        self.front |= u32::from(choice.is_front) << lane;
+        self.front |= u32::from(choice.side == Side::Front) << lane;
+    }
+
+    /// The side of the part that the direction in a lane hits.
+    #[inline]
+    pub(crate) fn side(&self, lane: usize) -> Side {
+        if self.front >> lane & 1 == 1 {
+            Side::Front
+        } else {
+            Side::Back
+        }
     }
 }
 
@@ -221,7 +231,7 @@ impl Emitters {
             toward: aim.toward,
             reach: aim.reach,
             density: chance * aim.density,
-            is_front: aim.is_front,
+            side: aim.side,
         }
     }
 
