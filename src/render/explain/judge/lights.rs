@@ -23,8 +23,6 @@ impl Judge<'_> {
     /// light in the sample.
     pub(super) fn lacks(&self, ray: usize, shading: &Shading, weight: Rgb) -> Lacks {
         let object = shading.hit.object;
-        let mut reasons: Vec<Reason> = Vec::new();
-        let mut lost = 0.0;
         let none = self.case.world.ambient == Rgb::ZERO;
         let no_ambient = found(Verdict::NoAmbient { object, none }, ray);
         if reflectance(&shading.material) == 0.0 {
@@ -32,16 +30,35 @@ impl Judge<'_> {
             let lacks = reflects && shading.ambient == Rgb::ZERO;
             return Lacks {
                 findings: lacks.then_some(no_ambient).into_iter().collect(),
-                lost,
+                lost: 0.0,
             };
         }
         if !shading.lit {
             return Lacks {
                 findings: vec![found(Verdict::UnlitSide { object }, ray)],
-                lost,
+                lost: 0.0,
             };
         }
-        reasons.extend(self.no_lights(shading));
+        let (mut reasons, lost) = self.reasons(shading, weight);
+        reasons.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        let mut findings: Vec<_> = reasons
+            .into_iter()
+            .map(|(_, verdict)| found(verdict, ray))
+            .collect();
+        let is_dim = self.is_dim(weight * shading.radiance);
+        let has_ambient = self.case.integrator == Integrator::Whitted;
+        if is_dim && has_ambient && shading.ambient == Rgb::ZERO {
+            findings.push(no_ambient);
+        }
+        Lacks { findings, lost }
+    }
+
+    /// Why lights add nothing, or little, at a surface that they could light, in no order; and the light
+    /// lost in shadows and outside cones, as displayed.
+    fn reasons(&self, shading: &Shading, weight: Rgb) -> (Vec<Reason>, f64) {
+        let object = shading.hit.object;
+        let mut reasons: Vec<Reason> = self.no_lights(shading).into_iter().collect();
+        let mut lost = 0.0;
         let mut off = Vec::new();
         let mut away = Vec::new();
         for term in &shading.lights {
@@ -51,15 +68,11 @@ impl Judge<'_> {
                     off.push((term.light, term.reflected.max_element()));
                 }
                 Some(UnlitReason::AtThePoint) => {
-                    let (light, verdict) = (
-                        term.light,
-                        Verdict::AtTheLight {
-                            light: term.light,
-                            object,
-                        },
-                    );
-                    let colour = self.case.world.lights()[light as usize].colour;
-                    reasons.push((0.5 * colour.abs().max_element(), verdict));
+                    let verdict = Verdict::AtTheLight {
+                        light: term.light,
+                        object,
+                    };
+                    reasons.push((0.5 * light.colour.abs().max_element(), verdict));
                 }
                 Some(UnlitReason::FacesAway) => match self.around(term, shading) {
                     Some(reason) => reasons.push(reason),
@@ -108,17 +121,7 @@ impl Judge<'_> {
             };
             reasons.push((0.01, verdict));
         }
-        reasons.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        let mut findings: Vec<_> = reasons
-            .into_iter()
-            .map(|(_, verdict)| found(verdict, ray))
-            .collect();
-        let is_dim = self.is_dim(weight * shading.radiance);
-        let has_ambient = self.case.integrator == Integrator::Whitted;
-        if is_dim && has_ambient && shading.ambient == Rgb::ZERO {
-            findings.push(no_ambient);
-        }
-        Lacks { findings, lost }
+        (reasons, lost)
     }
 
     /// That nothing in the scene can light a surface; not if ambient light does.
@@ -186,28 +189,6 @@ impl Judge<'_> {
         let colour = light.colour.abs().max_element();
         let transmittance = term.transmittance.unwrap_or(1.0);
         let shadow = || self.shadow(term, light, (loss, object));
-        let outside = || {
-            let verdict = Verdict::OutsideCone {
-                light: term.light,
-                angle: off_axis(light, term),
-                spot: term.spot,
-            };
-            (reflected * colour * term.radial, verdict)
-        };
-        let attenuated = || {
-            let verdict = Verdict::Attenuated {
-                light: term.light,
-                distance: term.distance,
-                radial: term.radial,
-                rule: self.case.world.rule_of(term.light),
-            };
-            (reflected * colour, verdict)
-        };
-        let not_reflected = || {
-            let light = term.light;
-            let verdict = Verdict::NotReflected { light, object };
-            (0.5 * term.arriving.abs().max_element(), verdict)
-        };
         match dark {
             Some(UnlitReason::Blocked) if is_facet_away(term, shading) => {
                 let light = term.light;
@@ -223,9 +204,9 @@ impl Judge<'_> {
                 };
                 return Some((loss, verdict));
             }
-            Some(UnlitReason::OutsideCone) => return Some(outside()),
-            Some(UnlitReason::Attenuated) => return Some(attenuated()),
-            Some(UnlitReason::NotReflected) => return Some(not_reflected()),
+            Some(UnlitReason::OutsideCone) => return Some(outside_cone(term, light)),
+            Some(UnlitReason::Attenuated) => return Some(self.attenuated(term, light)),
+            Some(UnlitReason::NotReflected) => return Some(not_reflected(term, object)),
             Some(_) => return None,
             None => {}
         }
@@ -246,8 +227,8 @@ impl Judge<'_> {
         let least = (0..factors.len()).min_by(|&a, &b| factors[a].total_cmp(&factors[b]))?;
         Some(match least {
             0 => shadow(),
-            1 => outside(),
-            2 => attenuated(),
+            1 => outside_cone(term, light),
+            2 => self.attenuated(term, light),
             3 => {
                 let verdict = Verdict::Dim {
                     light: term.light,
@@ -264,8 +245,18 @@ impl Judge<'_> {
                 };
                 (0.01, verdict)
             }
-            _ => not_reflected(),
+            _ => not_reflected(term, object),
         })
+    }
+
+    fn attenuated(&self, term: &LightTerm, light: &Light) -> Reason {
+        let verdict = Verdict::Attenuated {
+            light: term.light,
+            distance: term.distance,
+            radial: term.radial,
+            rule: self.case.world.rule_of(term.light),
+        };
+        (reflected_colour(term, light), verdict)
     }
 
     fn shadow(&self, term: &LightTerm, light: &Light, (loss, object): (f64, u32)) -> Reason {
@@ -296,6 +287,28 @@ impl Judge<'_> {
         };
         ((1.0 - transmittance) * loss, verdict)
     }
+}
+
+/// How much a surface would reflect of a light that reached it undiminished.
+fn reflected_colour(term: &LightTerm, light: &Light) -> f64 {
+    term.reflected.abs().max_element() * light.colour.abs().max_element()
+}
+
+fn outside_cone(term: &LightTerm, light: &Light) -> Reason {
+    let verdict = Verdict::OutsideCone {
+        light: term.light,
+        angle: off_axis(light, term),
+        spot: term.spot,
+    };
+    (reflected_colour(term, light) * term.radial, verdict)
+}
+
+fn not_reflected(term: &LightTerm, object: u32) -> Reason {
+    let verdict = Verdict::NotReflected {
+        light: term.light,
+        object,
+    };
+    (0.5 * term.arriving.abs().max_element(), verdict)
 }
 
 /// Whether the facet of a mesh faces away from a light that its smooth normal faces.
