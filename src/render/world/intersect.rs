@@ -19,11 +19,21 @@ pub(crate) enum Occlusion {
     Complete,
 }
 
+/// A surface that a shadow ray passes. Sorted, the surfaces of each ray are in file order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Passed {
+    /// The number of the ray in its packet.
+    pub(crate) ray: u32,
+    pub(crate) object: u32,
+    /// The object's material at the hit.
+    pub(crate) material: u32,
+}
+
 /// The objects hit by shadow rays.
 #[derive(Debug, Default)]
 pub(crate) struct Crossed {
-    /// Surfaces that transmit light: ray, object, and its material at the hit.
-    pub(crate) passed: Vec<(u32, u32, u32)>,
+    /// Surfaces that transmit light.
+    pub(crate) passed: Vec<Passed>,
     /// Whether to record dependencies.
     pub(crate) notes: bool,
     /// The dependencies of each ray of the current batch, if recorded.
@@ -334,7 +344,11 @@ impl World {
                         if self.blocks(material, occlusion) {
                             blocked = true;
                         } else {
-                            crossed.passed.push((0, object, material));
+                            crossed.passed.push(Passed {
+                                ray: 0,
+                                object,
+                                material,
+                            });
                         }
                     },
                 );
@@ -348,7 +362,7 @@ impl World {
         crossed
             .passed
             .iter()
-            .map(|&(_, _, material)| self.transmission(material))
+            .map(|passed| self.transmission(passed.material))
             .product()
     }
 

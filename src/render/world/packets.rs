@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use super::intersect::{Closest, Crossed, NearestHits, Occlusion};
+use super::intersect::{Closest, Crossed, NearestHits, Occlusion, Passed};
 use super::structures::Search;
 use super::{World, runs_in_file_order};
 use accel::Order;
@@ -90,7 +90,11 @@ impl World {
                                 self.remember(blocker, object);
                                 open &= !left;
                             } else {
-                                crossed.passed.push((lane, object, material));
+                                crossed.passed.push(Passed {
+                                    ray: lane,
+                                    object,
+                                    material,
+                                });
                             }
                         },
                     );
@@ -117,7 +121,11 @@ impl World {
                         passed &= passed - 1;
                         let hit = hits.hit(lane as usize);
                         let material = self.scene.objects[object as usize].material_at(hit);
-                        crossed.passed.push((lane, object, material));
+                        crossed.passed.push(Passed {
+                            ray: lane,
+                            object,
+                            material,
+                        });
                     }
                 }
                 limits
@@ -127,10 +135,10 @@ impl World {
         let mut next = 0;
         for lane in 0..packet.lanes.count_ones() {
             let mut transmittance = 1.0;
-            while let Some(&(of, _, material)) = crossed.passed.get(next)
-                && of == lane
+            while let Some(passed) = crossed.passed.get(next)
+                && passed.ray == lane
             {
-                transmittance *= self.transmission(material);
+                transmittance *= self.transmission(passed.material);
                 next += 1;
             }
             let is_open = open >> lane & 1 == 1;
