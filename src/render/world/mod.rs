@@ -99,6 +99,81 @@ fn sampled(
     Some((many_lights, emitters, sky))
 }
 
+/// What rays search the objects of a scene by.
+struct Shapes {
+    tree: Option<Arc<Bvh>>,
+    spheres: Arc<Spheres>,
+    structures: Structures,
+}
+
+/// Prepares the shapes of objects, or keeps what is the same in a previous world, if `changed` gives the
+/// objects with other shapes than there. `None` once `cancelled` returns true.
+fn prepared_shapes(
+    objects: &Objects,
+    integrator: Integrator,
+    previous: Option<&World>,
+    changed: Option<&[u32]>,
+    cancelled: IsCancelled<'_>,
+) -> Option<Shapes> {
+    let needs_tree = most_without_tree(integrator) < objects.len();
+    let is_same = |previous: &&World| {
+        changed.is_some_and(<[u32]>::is_empty) && previous.tree.is_some() == needs_tree
+    };
+    if let Some(previous) = previous.filter(is_same) {
+        return Some(Shapes {
+            tree: previous.tree.clone(),
+            spheres: Arc::clone(&previous.spheres),
+            structures: previous.structures.clone(),
+        });
+    }
+    let known = previous.map(|world| &world.structures);
+    let structures = Structures::build(objects, known, cancelled)?;
+    let tree = if needs_tree {
+        Some(Arc::new(tree(objects, previous, changed, cancelled)?))
+    } else {
+        None
+    };
+    let order = match &tree {
+        Some(tree) => tree.order(),
+        None => &FILE_ORDER[..objects.len()],
+    };
+    let runs = match &tree {
+        Some(tree) => tree.runs(cancelled)?,
+        None => runs_in_file_order(objects.len()).collect(),
+    };
+    let spheres = Arc::new(Spheres::new(objects, order, &runs, cancelled)?);
+    Some(Shapes {
+        tree,
+        spheres,
+        structures,
+    })
+}
+
+/// The tree over objects: that of a previous world, adapted, if few shapes differ. `None` once `cancelled`
+/// returns true.
+fn tree(
+    objects: &Objects,
+    previous: Option<&World>,
+    changed: Option<&[u32]>,
+    cancelled: IsCancelled<'_>,
+) -> Option<Bvh> {
+    let bounds = |object: u32| objects[object as usize].shape.bounds();
+    let known = previous.and_then(|world| world.tree.as_ref());
+    // Once cancelled, none is adapted, and none is built.
+    let adapted = known.and_then(|tree| {
+        if let Some(changed) = changed {
+            return tree.refitted(changed, bounds, cancelled);
+        }
+        let before = &previous?.scene.objects;
+        let (removed, inserted) = replaced(before, objects, cancelled)?;
+        tree.spliced(removed, inserted, bounds, cancelled)
+    });
+    match adapted {
+        Some(tree) => Some(tree),
+        None => Bvh::over(objects.len(), bounds, cancelled),
+    }
+}
+
 /// The settings that the preparation of a scene depends on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WorldSettings {
@@ -187,62 +262,18 @@ impl World {
         let samples_lights = has_emitters
             || !many_lights.is_empty()
             || lights.iter().any(|light| light_sphere(light).is_some());
-        let needs_tree = most_without_tree(integrator) < scene.objects.len();
-        let is_known = |previous: &&Self| {
-            changed.as_deref() == Some(&[]) && previous.tree.is_some() == needs_tree
-        };
-        if let Some(previous) = previous.filter(is_known) {
-            return Some(Self {
-                scene,
-                textures,
-                ambient,
-                faded,
-                gloss,
-                sphere_lights,
-                many_lights,
-                emitters,
-                sky,
-                has_emitters,
-                samples_lights,
-                level,
-                tree: previous.tree.clone(),
-                spheres: Arc::clone(&previous.spheres),
-                structures: previous.structures.clone(),
-                opaque,
-            });
-        }
-        let known = previous.map(|world| &world.structures);
-        let structures = Structures::build(&scene.objects, known, cancelled)?;
-        let tree = if needs_tree {
-            let objects = &scene.objects;
-            let bounds = |object: u32| objects[object as usize].shape.bounds();
-            let known = previous.and_then(|world| world.tree.as_ref());
-            // Once cancelled, none is adapted, and none is built.
-            let adapted = known.and_then(|tree| {
-                if let Some(changed) = changed {
-                    return tree.refitted(&changed, bounds, cancelled);
-                }
-                let before = &previous?.scene.objects;
-                let (removed, inserted) = replaced(before, objects, cancelled)?;
-                tree.spliced(removed, inserted, bounds, cancelled)
-            });
-            let tree = match adapted {
-                Some(tree) => tree,
-                None => Bvh::over(objects.len(), bounds, cancelled)?,
-            };
-            Some(Arc::new(tree))
-        } else {
-            None
-        };
-        let order = match &tree {
-            Some(tree) => tree.order(),
-            None => &FILE_ORDER[..scene.objects.len()],
-        };
-        let runs = match &tree {
-            Some(tree) => tree.runs(cancelled)?,
-            None => runs_in_file_order(scene.objects.len()).collect(),
-        };
-        let spheres = Arc::new(Spheres::new(&scene.objects, order, &runs, cancelled)?);
+        let shapes = prepared_shapes(
+            &scene.objects,
+            integrator,
+            previous,
+            changed.as_deref(),
+            cancelled,
+        )?;
+        let Shapes {
+            tree,
+            spheres,
+            structures,
+        } = shapes;
         Some(Self {
             scene,
             textures,
