@@ -1,4 +1,4 @@
-//! Counts boxes in bins along an axis, and finds the cheapest place between two bins to divide them.
+//! Gathers boxes in bins along an axis, and finds the cheapest place between two bins to divide them.
 
 use super::node::Bounds;
 
