@@ -23,7 +23,7 @@ use std::ops::Range;
 use arrayvec::ArrayVec;
 
 use geometry::Rays;
-use geometry::lanes::{Eight, Select, Simd, SimdBase, Singles, bits, each_bit, singles};
+use geometry::lanes::{Eight, Lanes, Select, Simd, SimdBase, Singles, bits, each_bit, singles};
 
 use super::node::{Child, Link, Node, WIDTH};
 use super::slab::{Approach, SlabRay, clip, is_open_in_lanes};
@@ -83,8 +83,18 @@ pub(super) fn traverse<S: Simd>(
     order: Order,
     mut visit: impl FnMut(Range<usize>, u32, Eight<S>) -> Eight<S>,
 ) {
-    for run in bvh.unbounded() {
-        limits = visit(run, lanes, limits);
+    if bvh.has_unbounded() {
+        // Apart, as the rest has a copy of `visit` too.
+        limits = limits.apart(
+            #[inline(always)]
+            || {
+                let mut limits = limits;
+                for run in bvh.unbounded() {
+                    limits = visit(run, lanes, limits);
+                }
+                limits
+            },
+        );
     }
     if bvh.nodes.is_empty() {
         return;

@@ -57,6 +57,12 @@ fn ordered(number: f32) -> u32 {
 }
 
 impl Bvh {
+    /// Whether there are boxes without finite planes.
+    #[inline]
+    pub(super) fn has_unbounded(&self) -> bool {
+        self.bounded < self.order.len()
+    }
+
     /// Ranges of [`Bvh::order`] with the boxes without finite planes.
     #[inline]
     pub(super) fn unbounded(&self) -> impl Iterator<Item = Range<usize>> + use<> {
@@ -75,11 +81,21 @@ pub(super) fn traverse<S: Simd>(
     mut limit: f64,
     mut visit: impl FnMut(Range<usize>) -> f64,
 ) {
-    for run in bvh.unbounded() {
-        if limit < 0.0 {
-            return;
-        }
-        limit = visit(run);
+    if bvh.has_unbounded() {
+        // Apart, as the rest has a copy of `visit` too.
+        limit = simd.vectorize(
+            #[inline(always)]
+            || {
+                let mut limit = limit;
+                for run in bvh.unbounded() {
+                    if limit < 0.0 {
+                        return limit;
+                    }
+                    limit = visit(run);
+                }
+                limit
+            },
+        );
     }
     if bvh.nodes.is_empty() {
         return;

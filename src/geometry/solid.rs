@@ -67,7 +67,11 @@ impl Solid {
             Some(quadric) => {
                 Hits::one_by_one(lanes, |lane| quadric.hit(&rays.ray(lane), limits[lane]))
             }
-            None => self.ends(rays)?.hits(limits, lanes),
+            None => self.from_ends(
+                rays,
+                #[inline(always)]
+                |ends| ends.hits(limits, lanes),
+            ),
         }
     }
 
@@ -92,24 +96,34 @@ impl Solid {
     /// The crossings of a simple solid in each lane; `None` for quadrics.
     #[inline(always)]
     pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
+        self.from_ends(rays, Some)
+    }
+
+    /// What `result` is of those crossings.
+    #[inline(always)]
+    fn from_ends<N: Lanes, R>(
+        &self,
+        rays: &Rays<N>,
+        result: impl FnOnce(Ends<N>) -> Option<R>,
+    ) -> Option<R> {
         let like = rays.origin.x;
         match self {
-            Self::Sphere(sphere) => sphere.ends(rays),
+            Self::Sphere(sphere) => result(sphere.ends(rays)?),
             Self::Ellipsoid(ellipsoid) => like.apart(
                 #[inline(always)]
-                || ellipsoid.ends(rays),
+                || result(ellipsoid.ends(rays)?),
             ),
             Self::Cuboid(cuboid) => like.apart(
                 #[inline(always)]
-                || cuboid.ends(rays),
+                || result(cuboid.ends(rays)?),
             ),
             Self::Cylinder(cylinder) => like.apart(
                 #[inline(always)]
-                || cylinder.ends(rays),
+                || result(cylinder.ends(rays)?),
             ),
             Self::Cone(cone) => like.apart(
                 #[inline(always)]
-                || cone.ends(rays),
+                || result(cone.ends(rays)?),
             ),
             Self::Quadric(_) => None,
         }
@@ -135,27 +149,21 @@ impl Solid {
         rays: &Rays<Eight<S>>,
         hits: &Hits,
     ) -> Option<Surfaces<Eight<S>>> {
-        let at = hits.ends(rays.origin.x.simd);
-        Some(match self {
-            Self::Sphere(sphere) => sphere.surface(rays, at),
-            Self::Ellipsoid(ellipsoid) => at.t.apart(
-                #[inline(always)]
-                || ellipsoid.surface(rays, at),
-            ),
-            Self::Cuboid(cuboid) => at.t.apart(
-                #[inline(always)]
-                || cuboid.surface(rays, at),
-            ),
-            Self::Cylinder(cylinder) => at.t.apart(
-                #[inline(always)]
-                || cylinder.surface(rays, at),
-            ),
-            Self::Cone(cone) => at.t.apart(
-                #[inline(always)]
-                || cone.surface(rays, at),
-            ),
-            Self::Quadric(_) => return None,
-        })
+        // Apart, as combinations of solids need it too.
+        rays.origin.x.apart(
+            #[inline(always)]
+            || {
+                let at = hits.ends(rays.origin.x.simd);
+                Some(match self {
+                    Self::Sphere(sphere) => sphere.surface(rays, at),
+                    Self::Ellipsoid(ellipsoid) => ellipsoid.surface(rays, at),
+                    Self::Cuboid(cuboid) => cuboid.surface(rays, at),
+                    Self::Cylinder(cylinder) => cylinder.surface(rays, at),
+                    Self::Cone(cone) => cone.surface(rays, at),
+                    Self::Quadric(_) => return None,
+                })
+            },
+        )
     }
 
     /// The texture coordinates at a hit of this solid, in its own frame.

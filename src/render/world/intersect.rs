@@ -465,34 +465,20 @@ impl World {
         limit: f64,
         mut visit: impl FnMut(Range<usize>) -> f64,
     ) {
-        match &self.tree {
-            Some(tree) => tree.traverse(
-                simd,
-                ray,
-                limit,
+        let Some(tree) = &self.tree else {
+            // Apart, as the traversal has a copy of `visit` too.
+            simd.vectorize(
                 #[inline(always)]
-                |run| visited(simd, &mut visit, run),
-            ),
-            None => {
-                for run in runs_in_file_order(self.scene.objects.len()) {
-                    if visited(simd, &mut visit, run) < 0.0 {
-                        return;
+                || {
+                    for run in runs_in_file_order(self.scene.objects.len()) {
+                        if visit(run) < 0.0 {
+                            return;
+                        }
                     }
-                }
-            }
-        }
+                },
+            );
+            return;
+        };
+        tree.traverse(simd, ray, limit, visit);
     }
-}
-
-/// Visits a run, apart from the code that visits it in several places.
-#[inline(always)]
-fn visited<S: Simd>(
-    simd: S,
-    visit: &mut impl FnMut(Range<usize>) -> f64,
-    run: Range<usize>,
-) -> f64 {
-    simd.vectorize(
-        #[inline(always)]
-        || visit(run),
-    )
 }

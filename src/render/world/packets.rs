@@ -320,35 +320,20 @@ impl World {
         mut visit: impl FnMut(Range<usize>, u32, Eight<S>) -> Eight<S>,
     ) {
         if let Some(tree) = &self.tree {
-            tree.traverse_packet(
-                rays,
-                lanes,
-                limits,
-                order,
-                #[inline(always)]
-                |run, lanes, limits| visited(&mut visit, run, lanes, limits),
-            );
+            tree.traverse_packet(rays, lanes, limits, order, visit);
             return;
         }
-        let mut limits = limits;
-        for run in runs_in_file_order(self.scene.objects.len()) {
-            limits = visited(&mut visit, run, lanes, limits);
-        }
+        // Apart, as the traversal has a copy of `visit` too.
+        limits.apart(
+            #[inline(always)]
+            || {
+                let mut limits = limits;
+                for run in runs_in_file_order(self.scene.objects.len()) {
+                    limits = visit(run, lanes, limits);
+                }
+            },
+        );
     }
-}
-
-/// Visits a run, apart from the code that visits it in several places.
-#[inline(always)]
-fn visited<S: Simd>(
-    visit: &mut impl FnMut(Range<usize>, u32, Eight<S>) -> Eight<S>,
-    run: Range<usize>,
-    lanes: u32,
-    limits: Eight<S>,
-) -> Eight<S> {
-    limits.apart(
-        #[inline(always)]
-        || visit(run, lanes, limits),
-    )
 }
 
 /// Disables some rays, by limits below 0.
