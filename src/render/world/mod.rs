@@ -99,15 +99,15 @@ fn sampled(
     Some((many_lights, emitters, sky))
 }
 
-/// What rays search the objects of a scene by.
+/// The structures by which rays search the objects of a scene.
 struct Shapes {
     tree: Option<Arc<Bvh>>,
     spheres: Arc<Spheres>,
     structures: Structures,
 }
 
-/// Prepares the shapes of objects, or keeps what is the same in a previous world, if `changed` gives the
-/// objects with other shapes than there. `None` once `cancelled` returns true.
+/// Prepares the structures of objects, or keeps those of a previous world, from which only the shapes of
+/// the objects in `changed` differ, if it is known which. `None` once `cancelled` returns true.
 fn prepared_shapes(
     objects: &Objects,
     integrator: Integrator,
@@ -269,11 +269,6 @@ impl World {
             changed.as_deref(),
             cancelled,
         )?;
-        let Shapes {
-            tree,
-            spheres,
-            structures,
-        } = shapes;
         Some(Self {
             scene,
             textures,
@@ -287,9 +282,9 @@ impl World {
             has_emitters,
             samples_lights,
             level,
-            tree,
-            spheres,
-            structures,
+            tree: shapes.tree,
+            spheres: shapes.spheres,
+            structures: shapes.structures,
             opaque,
         })
     }
