@@ -156,10 +156,7 @@ impl Affine {
         bounds: impl FnOnce() -> Aabb,
     ) -> Option<Ends<N>> {
         if self.is_ill_conditioned {
-            found.enter.t.apart(
-                #[inline(always)]
-                || found.clipped(&bounds(), rays),
-            )
+            found.clipped(&bounds(), rays)
         } else {
             Some(found)
         }
