@@ -84,8 +84,8 @@ pub(super) fn traverse<S: Simd>(
     mut visit: impl FnMut(Range<usize>, u32, Eight<S>) -> Eight<S>,
 ) {
     if bvh.has_unbounded() {
-        // Apart, as the rest has a copy of `visit` too.
-        limits = limits.apart(
+        // Outlined, as the rest has a copy of `visit` too.
+        limits = limits.outlined(
             #[inline(always)]
             || {
                 let mut limits = limits;

@@ -95,7 +95,7 @@ impl Shape {
         let like = rays.origin.x;
         match self {
             Self::Solid(solid) => solid.surfaces(rays, hits).map(Shaded::from),
-            Self::Csg(csg) => like.apart(
+            Self::Csg(csg) => like.outlined(
                 #[inline(always)]
                 || csg.surfaces(rays, hits).map(Shaded::from),
             ),
@@ -103,7 +103,7 @@ impl Shape {
                 let surfaces = plane.surface(rays, hits.ends(rays.origin.x.simd));
                 Some(surfaces.into())
             }
-            Self::Mesh(instance) => like.apart(
+            Self::Mesh(instance) => like.outlined(
                 #[inline(always)]
                 || Some(instance.surfaces(rays, hits)),
             ),

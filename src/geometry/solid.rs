@@ -67,7 +67,7 @@ impl Solid {
             Some(quadric) => {
                 Hits::one_by_one(lanes, |lane| quadric.hit(&rays.ray(lane), limits[lane]))
             }
-            None => self.from_ends(
+            None => self.with_ends(
                 rays,
                 #[inline(always)]
                 |ends| ends.hits(limits, lanes),
@@ -96,12 +96,13 @@ impl Solid {
     /// The crossings of a simple solid in each lane; `None` for quadrics.
     #[inline(always)]
     pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
-        self.from_ends(rays, Some)
+        self.with_ends(rays, Some)
     }
 
-    /// What `result` is of those crossings.
+    /// Calls `result` with those crossings. Each solid but the sphere is compiled with it as one function,
+    /// so that crossings stay in registers.
     #[inline(always)]
-    fn from_ends<N: Lanes, R>(
+    fn with_ends<N: Lanes, R>(
         &self,
         rays: &Rays<N>,
         result: impl FnOnce(Ends<N>) -> Option<R>,
@@ -109,19 +110,19 @@ impl Solid {
         let like = rays.origin.x;
         match self {
             Self::Sphere(sphere) => result(sphere.ends(rays)?),
-            Self::Ellipsoid(ellipsoid) => like.apart(
+            Self::Ellipsoid(ellipsoid) => like.outlined(
                 #[inline(always)]
                 || result(ellipsoid.ends(rays)?),
             ),
-            Self::Cuboid(cuboid) => like.apart(
+            Self::Cuboid(cuboid) => like.outlined(
                 #[inline(always)]
                 || result(cuboid.ends(rays)?),
             ),
-            Self::Cylinder(cylinder) => like.apart(
+            Self::Cylinder(cylinder) => like.outlined(
                 #[inline(always)]
                 || result(cylinder.ends(rays)?),
             ),
-            Self::Cone(cone) => like.apart(
+            Self::Cone(cone) => like.outlined(
                 #[inline(always)]
                 || result(cone.ends(rays)?),
             ),
@@ -149,8 +150,8 @@ impl Solid {
         rays: &Rays<Eight<S>>,
         hits: &Hits,
     ) -> Option<Surfaces<Eight<S>>> {
-        // Apart, as combinations of solids need it too.
-        rays.origin.x.apart(
+        // Outlined, as combinations of solids need it too.
+        rays.origin.x.outlined(
             #[inline(always)]
             || {
                 let at = hits.ends(rays.origin.x.simd);

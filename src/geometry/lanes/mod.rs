@@ -115,10 +115,9 @@ pub trait Lanes:
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// Whether the mask is true in any lane.
     fn any(mask: Self::Mask) -> bool;
-    /// Calls a part of a long formula, compiled for vectors like this as a function of its own.
-    ///
-    /// This is for the compiler's sake: a function takes it about the square of its size.
-    fn apart<R>(self, part: impl FnOnce() -> R) -> R;
+    /// Calls a part of a long formula, compiled for vectors like this as a function of its own: the
+    /// compiler takes about the square of a function's size.
+    fn outlined<R>(self, part: impl FnOnce() -> R) -> R;
 
     /// Whether this is a finite number.
     #[inline(always)]
@@ -212,7 +211,7 @@ impl Lanes for f64 {
     }
 
     #[inline(always)]
-    fn apart<R>(self, part: impl FnOnce() -> R) -> R {
+    fn outlined<R>(self, part: impl FnOnce() -> R) -> R {
         part()
     }
 }
@@ -328,7 +327,7 @@ macro_rules! lanes {
             }
 
             #[inline(always)]
-            fn apart<R>(self, part: impl FnOnce() -> R) -> R {
+            fn outlined<R>(self, part: impl FnOnce() -> R) -> R {
                 self.simd.vectorize(part)
             }
         }

@@ -466,7 +466,7 @@ impl World {
         mut visit: impl FnMut(Range<usize>) -> f64,
     ) {
         let Some(tree) = &self.tree else {
-            // Apart, as the traversal has a copy of `visit` too.
+            // Outlined, as the traversal has a copy of `visit` too.
             simd.vectorize(
                 #[inline(always)]
                 || {

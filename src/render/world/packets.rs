@@ -290,7 +290,7 @@ impl World {
                 Shape::Mesh(instance) => {
                     let search = self.search(object, search);
                     let structures = &self.structures;
-                    limits.apart(
+                    limits.outlined(
                         #[inline(always)]
                         || structures.hits(object, instance, rays, lanes, limits, search),
                     )
@@ -323,8 +323,8 @@ impl World {
             tree.traverse_packet(rays, lanes, limits, order, visit);
             return;
         }
-        // Apart, as the traversal has a copy of `visit` too.
-        limits.apart(
+        // Outlined, as the traversal has a copy of `visit` too.
+        limits.outlined(
             #[inline(always)]
             || {
                 let mut limits = limits;
