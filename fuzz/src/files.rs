@@ -40,7 +40,7 @@ fn read(mesh: &[u8], library: &[u8]) {
 
 /// Decodes a picture of any format.
 pub fn picture(input: &[u8]) {
-    if let Ok(image) = image_file::decode(std::io::Cursor::new(input), ROOM) {
+    if let Ok(image) = image_file::decode(&mut std::io::Cursor::new(input), ROOM) {
         let size = image.size();
         let pixels = u64::from(size.width) * u64::from(size.height);
         assert!((1..=ROOM).contains(&pixels));

@@ -62,7 +62,7 @@ pub fn part(input: &[u8]) {
 
 /// Reads what a picture is made from, and writes it again.
 pub fn record(input: &[u8]) {
-    if let Ok(Some(made_from)) = image_file::record(Cursor::new(input)) {
+    if let Ok(Some(made_from)) = image_file::record(&mut Cursor::new(input)) {
         assert!(!made_from.entries().is_empty() || made_from.unused().is_some());
     }
 }

@@ -95,7 +95,7 @@ impl Bvh {
         aabb: impl Fn(u32) -> Aabb + Sync,
         cancelled: IsCancelled<'_>,
     ) -> Option<Self> {
-        build::build(count, &aabb, &cancelled).ok()
+        build::build(count, &aabb, cancelled).ok()
     }
 
     /// Adapts the tree to a few changed boxes. Returns `None` if a new one is better: after many

@@ -84,7 +84,7 @@ pub(super) fn traverse<S: Simd>(
     mut visit: impl FnMut(Range<usize>, u32, Eight<S>) -> Eight<S>,
 ) {
     if bvh.has_unbounded() {
-        // Outlined, as the rest has a copy of `visit` too.
+        // Outlined, because the rest inlines `visit` as well.
         limits = limits.outlined(
             #[inline(always)]
             || {

@@ -46,8 +46,8 @@ pub(super) fn refit(
             }
         }
     }
-    let mut nodes = copied(&bvh.nodes, &cancelled)?;
-    let parents = Parents::of(&nodes, &cancelled)?;
+    let mut nodes = copied(&bvh.nodes, cancelled)?;
+    let parents = Parents::of(&nodes, cancelled)?;
     for (number, lane) in leaves {
         let child = nodes[number].child(lane);
         let Child::Leaf { first, count } = child else {
@@ -64,7 +64,7 @@ pub(super) fn refit(
         spread: bvh.spread,
         farthest: nodes.first().map_or(0.0, Node::farthest),
         nodes,
-        order: copied(&bvh.order, &cancelled)?,
+        order: copied(&bvh.order, cancelled)?,
         bounded: bvh.bounded,
         moved: bvh.moved + changed.len(),
     })

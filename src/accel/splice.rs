@@ -54,8 +54,8 @@ pub(super) fn splice(
             index - (removed.end - removed.start) + inserted
         }
     };
-    let order = changes.applied(&bvh.order, renumbered, &cancelled)?;
-    let mut nodes = copied(&bvh.nodes, &cancelled)?;
+    let order = changes.applied(&bvh.order, renumbered, cancelled)?;
+    let mut nodes = copied(&bvh.nodes, cancelled)?;
     let mut touched = Vec::new();
     for (number, node) in nodes.iter_mut().enumerate() {
         if polls_at(number) && cancelled() {
@@ -85,7 +85,7 @@ pub(super) fn splice(
             node.put(lane, &own, child);
         }
     }
-    let parents = Parents::of(&nodes, &cancelled)?;
+    let parents = Parents::of(&nodes, cancelled)?;
     for number in touched {
         parents.enclose(&mut nodes, number);
     }

@@ -82,7 +82,7 @@ pub(super) fn traverse<S: Simd>(
     mut visit: impl FnMut(Range<usize>) -> f64,
 ) {
     if bvh.has_unbounded() {
-        // Outlined, as the rest has a copy of `visit` too.
+        // Outlined, because the rest inlines `visit` as well.
         limit = simd.vectorize(
             #[inline(always)]
             || {

@@ -47,7 +47,7 @@ impl Load<'_> {
         let known = self.now.images.get(&digest);
         let image = match known.or_else(|| self.before.images.get(&digest)) {
             Some(image) => Arc::clone(image),
-            None => Arc::new(image_file::decode(&stream.file, self.room.pixels)?),
+            None => Arc::new(image_file::decode(&mut &stream.file, self.room.pixels)?),
         };
         if self.has_room(digest, &image) {
             Ok((digest, image))

@@ -124,8 +124,8 @@ fn is_picture(path: &Path) -> bool {
 }
 
 fn read(path: &Path) -> Result<Recorded, Error> {
-    let file = file::open(path)?;
-    Recorded::read(file).map_err(|source| Error::Picture {
+    let mut file = file::open(path)?;
+    Recorded::read(&mut file).map_err(|source| Error::Picture {
         path: path.to_owned(),
         source,
     })

@@ -28,7 +28,7 @@ pub fn show(work: &Show) -> Result<Verdict, Error> {
 fn try_show(work: &Show) -> Result<Verdict, Error> {
     work.reading.begin()?;
     let path = &work.picture;
-    let record = match image_file::record(file::open(path)?) {
+    let record = match image_file::record(&mut file::open(path)?) {
         Ok(Some(record)) => record,
         Ok(None) => return Err(Error::NoProvenance(path.clone())),
         Err(Unreadable::Unknown) => return Err(Error::NeverRecorded(path.clone())),

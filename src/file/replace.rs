@@ -24,7 +24,7 @@ const LOCK_RETRY: Duration = Duration::from_millis(20);
 /// The size of the write buffer in bytes: pictures arrive in rows of a few hundred.
 const CHUNK: usize = 1 << 18;
 
-/// Writes what a file is to hold. As a trait object, so that writing is compiled only once.
+/// Writes the content of a file. Taken as a trait object, so that replacing files is compiled only once.
 pub type Content<'w> = dyn FnMut(&mut dyn Write) -> io::Result<()> + 'w;
 
 /// Replaces or creates a file, so that at any moment it holds either the old or the complete new

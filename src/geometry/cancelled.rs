@@ -1,5 +1,5 @@
-//! Giving up work that takes long.
+//! Cancellation of long work.
 
-/// Whether work is to be given up: what was begun has no result then. Polled every few milliseconds by
-/// all threads that work; what one thread does alone takes a plain `&dyn Fn() -> bool`.
+/// Whether to give up the work, which then has no result. Every thread that works polls it, every few
+/// milliseconds; work on a single thread takes a plain `&dyn Fn() -> bool`.
 pub type IsCancelled<'c> = &'c (dyn Fn() -> bool + Sync);

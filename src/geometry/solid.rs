@@ -99,8 +99,8 @@ impl Solid {
         self.with_ends(rays, Some)
     }
 
-    /// Calls `result` with those crossings. Each solid but the sphere is compiled with it as one function,
-    /// so that crossings stay in registers.
+    /// Calls `result` with those crossings. For all solids but spheres, the two are compiled as one
+    /// function, so that crossings stay in registers.
     #[inline(always)]
     fn with_ends<N: Lanes, R>(
         &self,
@@ -150,7 +150,7 @@ impl Solid {
         rays: &Rays<Eight<S>>,
         hits: &Hits,
     ) -> Option<Surfaces<Eight<S>>> {
-        // Outlined, as combinations of solids need it too.
+        // Outlined, because combinations of solids use it as well.
         rays.origin.x.outlined(
             #[inline(always)]
             || {

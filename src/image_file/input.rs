@@ -1,8 +1,9 @@
-//! What pictures are read from.
+//! Where pictures are read from.
 
 use std::io::{Read, Seek};
 
-/// A file, whole or filtered. As a trait object, so that all decoders are compiled only once.
-pub(super) trait Input: Read + Seek {}
+/// The bytes of a picture file, whole or filtered. Taken as a trait object, so that each decoder is
+/// compiled only once.
+pub trait Input: Read + Seek {}
 
 impl<R: Read + Seek> Input for R {}

@@ -20,6 +20,7 @@ use render::Frames;
 use scene::Size;
 
 pub use exr::layer_bytes;
+pub use input::Input;
 pub use metadata::record;
 pub use movie::{DEFAULT_RATE, MovieFormat, MovieWriter};
 pub use pattern::{NoPattern, Pattern};

@@ -1,6 +1,6 @@
 //! What a picture is made from, stored in PNG and EXR files as lines of names and values.
 
-use std::io::{BufReader, Read, Seek};
+use std::io::{BufReader, Read};
 use std::panic::{self, AssertUnwindSafe};
 
 use exr::meta::MetaData;
@@ -32,11 +32,7 @@ pub(super) fn text(provenance: &Provenance) -> String {
 /// # Errors
 ///
 /// Fails if it is neither a PNG nor an EXR, or damaged before its pixels.
-pub fn record(mut file: impl Read + Seek) -> Result<Option<PictureMetadata>, Unreadable> {
-    record_in(&mut file)
-}
-
-pub(super) fn record_in(file: &mut dyn Input) -> Result<Option<PictureMetadata>, Unreadable> {
+pub fn record(file: &mut dyn Input) -> Result<Option<PictureMetadata>, Unreadable> {
     // As for pixels, decoders run on untrusted bytes.
     let read = panic::catch_unwind(AssertUnwindSafe(|| stored_text(file)));
     let text = read.unwrap_or_else(|_| Err(Unreadable::Broken("its decoder failed".to_owned())))?;

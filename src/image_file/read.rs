@@ -1,7 +1,7 @@
 //! Decodes picture files into textures. Files are untrusted: sizes are checked before memory is
 //! allocated, and data that the pixels do not need is not read.
 
-use std::io::{BufReader, ErrorKind, Read, Seek};
+use std::io::{BufReader, ErrorKind, Read};
 use std::panic::{self, AssertUnwindSafe};
 
 use image::error::UnsupportedErrorKind;
@@ -23,11 +23,7 @@ const MAX_HEADER: u64 = 16 << 20;
 /// pixels than `room`, or if a JPEG has more than eight bytes per pixel plus 1 MiB, not counting
 /// segments that the pixels do not need. Memory is taken for the pixels and for what the decoder
 /// keeps of the file, which is all of a JPEG.
-pub fn decode(mut file: impl Read + Seek, room: u64) -> Result<Image, Unreadable> {
-    decode_input(&mut file, room)
-}
-
-pub(super) fn decode_input(file: &mut dyn Input, room: u64) -> Result<Image, Unreadable> {
+pub fn decode(file: &mut dyn Input, room: u64) -> Result<Image, Unreadable> {
     // Third-party decoders run on untrusted bytes: if one panics, only the picture is lost.
     let decoded = panic::catch_unwind(AssertUnwindSafe(|| by_format(file, room)));
     decoded.unwrap_or_else(|_| Err(Unreadable::Broken("its decoder failed".to_owned())))

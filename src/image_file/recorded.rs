@@ -1,12 +1,10 @@
 //! Picture files to compare with: their pixels, and how they were made.
 
-use std::io::{Read, Seek};
-
 use image::{DynamicImage, Rgb32FImage};
 
 use super::input::Input;
-use super::metadata::record_in;
-use super::read::{decode_input, holds_light};
+use super::metadata::record;
+use super::read::{decode, holds_light};
 use super::unreadable::Unreadable;
 use render::{Frame, PictureMetadata};
 use scene::Image;
@@ -28,19 +26,15 @@ impl Recorded {
     ///
     /// # Errors
     ///
-    /// Fails as [`decode`](super::decode()) does.
-    pub fn read(mut file: impl Read + Seek) -> Result<Self, Unreadable> {
-        Self::of(&mut file)
-    }
-
-    fn of(file: &mut dyn Input) -> Result<Self, Unreadable> {
+    /// Fails as [`decode`] does.
+    pub fn read(file: &mut dyn Input) -> Result<Self, Unreadable> {
         let rewind = |error: std::io::Error| Unreadable::Broken(error.to_string());
         let holds_light = holds_light(file)?;
         file.rewind().map_err(rewind)?;
-        let image = decode_input(file, u64::MAX)?;
+        let image = decode(file, u64::MAX)?;
         file.rewind().map_err(rewind)?;
         // A picture is compared whatever is wrong with what stands beside it.
-        let record = record_in(file).ok().flatten();
+        let record = record(file).ok().flatten();
         Ok(Self {
             image,
             record: record.filter(|record| !record.is_empty()),
@@ -49,7 +43,7 @@ impl Recorded {
     }
 }
 
-/// The floating-point values of a frame as [`decode`](super::decode()) reads them from a file: clamped, without a
+/// The floating-point values of a frame as [`decode`] reads them from a file: clamped, without a
 /// transfer curve. `None` if it has none.
 pub fn in_8_bits(frame: &Frame) -> Option<Vec<[u8; 3]>> {
     let (width, height) = (frame.size.width, frame.size.height);

@@ -11,8 +11,8 @@ pub const CPU_LEVEL_VARIABLE: &str = "HALFLIGHT_CPU";
 /// The values of [`CPU_LEVEL_VARIABLE`], from the lowest level to the highest.
 pub const CPU_LEVELS: [&str; 3] = ["sse2", "avx2", "avx512"];
 
-/// The best level of this machine that [`CPU_LEVEL_VARIABLE`] permits; what is none of [`CPU_LEVELS`], which the command
-/// line refuses unless it is empty, caps nothing.
+/// The best level of this machine that [`CPU_LEVEL_VARIABLE`] permits. A value that is not one of
+/// [`CPU_LEVELS`] has no effect; the command line refuses it unless it is empty.
 pub(crate) fn level() -> Level {
     let best = Level::new();
     match env::var(CPU_LEVEL_VARIABLE) {

@@ -60,7 +60,7 @@ pub(crate) fn spawn<T: Send + 'static>(
     name: &str,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> io::Result<JoinHandle<T>> {
-    // As a trait object, so that starting a thread is compiled once for each result, not for each work.
+    // Boxed, so that starting a thread is compiled once for each type of result, not for each closure.
     let work: Box<dyn FnOnce() -> T + Send> = Box::new(work);
     thread::Builder::new().name(name.to_owned()).spawn(work)
 }

@@ -99,8 +99,8 @@ impl ReferenceSource {
 }
 
 fn picture(path: &Path) -> Result<ReferenceRead, String> {
-    let file = file::open(path).map_err(|error| error.to_string())?;
-    let read = Recorded::read(file).map_err(|error| format!("{} {error}", path.display()))?;
+    let mut file = file::open(path).map_err(|error| error.to_string())?;
+    let read = Recorded::read(&mut file).map_err(|error| format!("{} {error}", path.display()))?;
     let frame = Frame::drawn(read.image.size(), read.image.pixels().to_vec());
     let made = Made {
         record: read.record.map(Box::new),

@@ -124,13 +124,13 @@ fn no_such_size(span: Span, reason: &str) -> Diagnostic {
     Diagnostic::error(span, message, "a smaller size").with_hint("or override it: --size WxH")
 }
 
-/// About how many bytes of memory a picture takes that is traced as a whole, besides its scene. `kept` are
-/// the photons of each map, if known.
+/// About how many bytes of memory it takes to trace a picture as a whole, besides its scene. `kept` is the
+/// number of photons in each map, if known.
 fn memory_of_whole(still: &Still, kept: Option<u64>) -> u64 {
     memory_for(&still.job, kept).saturating_add(still.memory_for_layers())
 }
 
-/// The same of a picture that is traced into a part file by these threads.
+/// The same for a picture that these threads trace into a part file.
 fn memory_of_part(still: &Still, part: &PartFile, threads: usize, kept: Option<u64>) -> u64 {
     let traced = part.memory_for(&still.job, threads, kept);
     traced.saturating_add(still.memory_for_layers())

@@ -51,10 +51,10 @@ impl PreparedScene {
             &job.images,
             WorldSettings::of(&job.settings),
             None,
-            &cancelled,
+            cancelled,
         )?;
         let photons = match PhotonRules::of(&job.settings) {
-            Some(rules) => Some(Photons::build(&world, rules, None, &cancelled)?),
+            Some(rules) => Some(Photons::build(&world, rules, None, cancelled)?),
             None => None,
         };
         let world = Arc::new(world);

@@ -1,4 +1,4 @@
-//! Which part of the light counts: all, or the share of one source.
+//! Which part of the light is traced: all of it, or the share of one source.
 //!
 //! The direct light of every light, the emission and the indirect light add up to all light. A
 //! share is told by the bounce at which its light enters, so that its samples are those of the
@@ -7,7 +7,7 @@
 use crate::job::Aov;
 use scene::Integrator;
 
-/// The light that counts.
+/// The part of the light that is traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LightComponent {
     /// All of it.

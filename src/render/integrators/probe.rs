@@ -23,7 +23,7 @@ pub(crate) struct Probe<'w> {
     pub(crate) cancelled: &'w dyn Fn() -> bool,
     /// Maximum bounces.
     pub(crate) depth: u32,
-    /// The part of the light that counts.
+    /// The part of the light that is traced.
     pub(crate) component: LightComponent,
     /// The photons of the current sample, if there are to be any.
     pub(crate) photon_map: Option<&'w PhotonMap>,

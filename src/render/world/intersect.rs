@@ -466,7 +466,7 @@ impl World {
         mut visit: impl FnMut(Range<usize>) -> f64,
     ) {
         let Some(tree) = &self.tree else {
-            // Outlined, as the traversal has a copy of `visit` too.
+            // Outlined, because the traversal inlines `visit` as well.
             simd.vectorize(
                 #[inline(always)]
                 || {

@@ -323,7 +323,7 @@ impl World {
             tree.traverse_packet(rays, lanes, limits, order, visit);
             return;
         }
-        // Outlined, as the traversal has a copy of `visit` too.
+        // Outlined, because the traversal inlines `visit` as well.
         limits.outlined(
             #[inline(always)]
             || {

@@ -2,7 +2,8 @@
 //! packets. The order of summation within each path does not depend on the others.
 //!
 //! A bounce has these steps: [trace](trace_rays) its rays, sample [lights](super::light_samples) and
-//! [emitters](super::emitter_samples) at their hits, add photons, and [shade and continue](shade_and_continue) from there.
+//! [emitters](super::emitter_samples) at their hits, add photons, and
+//! [shade and continue](shade_and_continue) from there.
 
 use std::borrow::Cow;
 

@@ -8,7 +8,7 @@ use crate::terminal::base64;
 const PLACE: Rect = Rect::new(3, 2, 9, 4);
 
 fn decoded(png: &[u8]) -> Pixmap {
-    let picture = image_file::decode(Cursor::new(png), 1 << 20).expect("a PNG");
+    let picture = image_file::decode(&mut Cursor::new(png), 1 << 20).expect("a PNG");
     Pixmap {
         size: picture.size(),
         pixels: picture.pixels().to_vec(),
