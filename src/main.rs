@@ -2,7 +2,6 @@
 
 use std::io::{self, Write};
 use std::process::ExitCode;
-#[cfg(unix)]
 use std::sync::Arc;
 
 use halflight::cli::{self, Command, Purpose, Stop};
@@ -15,7 +14,6 @@ static ALLOCATOR: Allocator = Allocator;
 
 fn main() -> ExitCode {
     memory::malloc::share();
-    #[cfg(unix)]
     survive_file_size_limit();
     ExitCode::from(match cli::parse(std::env::args_os()) {
         Ok(Command::Interface(options, source, purpose)) => configured(options, &source, purpose),
@@ -37,7 +35,6 @@ fn main() -> ExitCode {
 
 /// Makes a write beyond the file size limit an ordinary error. By default it kills the process,
 /// which would leave a temporary file behind.
-#[cfg(unix)]
 fn survive_file_size_limit() {
     // If this fails, the default remains.
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());

@@ -11,9 +11,7 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-#[cfg(unix)]
 use rustix::fd::OwnedFd;
-#[cfg(unix)]
 use rustix::fs::{Mode, OFlags};
 
 /// An open folder and its path.
@@ -21,7 +19,6 @@ use rustix::fs::{Mode, OFlags};
 pub(super) struct Folder {
     /// The canonical path, without links.
     real: PathBuf,
-    #[cfg(unix)]
     descriptor: OwnedFd,
 }
 
@@ -59,7 +56,6 @@ impl Folder {
     pub(super) fn open(path: &Path) -> io::Result<Self> {
         let real = fs::canonicalize(path)?;
         Ok(Self {
-            #[cfg(unix)]
             descriptor: rustix::fs::open(&real, flags_of_folders(), Mode::empty())?,
             real,
         })
@@ -77,7 +73,6 @@ impl Folder {
 
     /// Opens a file of this folder by its canonical path; never blocks. Fails if the path lies
     /// outside or contains links by now.
-    #[cfg(unix)]
     pub(super) fn file(&self, real: &Path) -> io::Result<File> {
         let inside = real.strip_prefix(&self.real).map_err(io::Error::other)?;
         let own = Path::new(".");
@@ -96,28 +91,14 @@ impl Folder {
         Ok(rustix::fs::openat(folder, name, flags, Mode::empty())?.into())
     }
 
-    /// Opens a file by its canonical path.
-    #[cfg(not(unix))]
-    pub(super) fn file(&self, real: &Path) -> io::Result<File> {
-        File::open(real)
-    }
-
     /// Whether the folder is writable by everyone.
-    #[cfg(unix)]
     pub(super) fn is_public(&self) -> bool {
         let mode = |stat: rustix::fs::Stat| Mode::from_raw_mode(stat.st_mode);
         rustix::fs::fstat(&self.descriptor).map_or(true, |stat| mode(stat).contains(Mode::WOTH))
     }
-
-    /// Whether the folder is writable by everyone.
-    #[cfg(not(unix))]
-    pub(super) fn is_public(&self) -> bool {
-        false
-    }
 }
 
 /// The flags for opening folders. `O_PATH`, where available, needs no permission to list them.
-#[cfg(unix)]
 fn flags_of_folders() -> OFlags {
     #[cfg(any(target_os = "linux", target_os = "android"))]
     let access = OFlags::PATH;

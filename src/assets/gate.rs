@@ -279,7 +279,6 @@ fn digest(bytes: &[u8]) -> u64 {
 }
 
 /// A hash of the bytes of a file with this length. The file position stays at the beginning.
-#[cfg(unix)]
 fn digest_of_file(file: &File, length: u64) -> Result<u64, Failure> {
     use std::os::unix::fs::FileExt;
     let part = |at: u64| {
@@ -298,21 +297,5 @@ fn digest_of_file(file: &File, length: u64) -> Result<u64, Failure> {
     Ok(hash(parts?))
 }
 
-/// A hash of the bytes of a file with this length. The file position stays at the beginning.
-#[cfg(not(unix))]
-fn digest_of_file(mut file: &File, length: u64) -> Result<u64, Failure> {
-    use std::io::{Read, Seek};
-    let mut parts = Vec::new();
-    let mut left = length;
-    while 0 < left {
-        let mut bytes = vec![0; PART.min(left as usize)];
-        file.read_exact(&mut bytes)?;
-        left -= bytes.len() as u64;
-        parts.push(hash(&bytes[..]));
-    }
-    file.rewind()?;
-    Ok(hash(parts))
-}
-
-#[cfg(all(test, unix))]
+#[cfg(test)]
 mod tests;

@@ -254,5 +254,5 @@ impl Load<'_> {
     }
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
 mod tests;

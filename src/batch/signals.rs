@@ -1,6 +1,5 @@
 //! Signals that ask a long render to keep what it has and stop.
 
-#[cfg(unix)]
 use std::fs;
 use std::io;
 use std::sync::Arc;
@@ -8,7 +7,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The signals that stop a render that can be continued, and their names. `SIGUSR1` is what Slurm's
 /// `--signal` is usually set to, to warn that time is running out.
-#[cfg(unix)]
 const SIGNALS: [(i32, &str); 4] = [
     (signal_hook::consts::SIGHUP, "SIGHUP"),
     (signal_hook::consts::SIGTERM, "SIGTERM"),
@@ -22,7 +20,6 @@ pub(super) struct Signals(Arc<AtomicUsize>);
 
 impl Signals {
     /// Notes signals from now on, instead of being ended by them.
-    #[cfg(unix)]
     pub(super) fn noted() -> io::Result<Self> {
         let noted = Self::default();
         for (signal, _) in SIGNALS {
@@ -33,12 +30,6 @@ impl Signals {
             signal_hook::flag::register_usize(signal, cell, signal as usize)?;
         }
         Ok(noted)
-    }
-
-    /// Signals are not noted on systems without them.
-    #[cfg(not(unix))]
-    pub(super) fn noted() -> io::Result<Self> {
-        Ok(Self::default())
     }
 
     /// Whether one has arrived.
@@ -55,7 +46,6 @@ impl Signals {
 
 /// Whether a signal was ignored when the program began, as by nohup, so that it must stay without
 /// effect. Where the system has no table of these, every signal may be.
-#[cfg(unix)]
 fn may_be_ignored(signal: i32) -> bool {
     let table = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let ignored = table.lines().find_map(|line| line.strip_prefix("SigIgn:"));
@@ -75,7 +65,6 @@ impl Signal {
 
     /// Its name, such as `SIGTERM`.
     pub fn name(self) -> &'static str {
-        #[cfg(unix)]
         for (number, name) in SIGNALS {
             if number == i32::from(self.0) {
                 return name;

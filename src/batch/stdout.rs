@@ -52,7 +52,6 @@ pub(super) fn error(source: io::Error) -> Error {
 /// Whether standard output is what the standard library opens before `main` in place of a closed
 /// stream: the null device, for reading and writing. A shell's `>/dev/null` opens it for writing
 /// only.
-#[cfg(unix)]
 fn is_placeholder() -> bool {
     use std::os::unix::fs::MetadataExt;
 
@@ -68,9 +67,4 @@ fn is_placeholder() -> bool {
     flags & OFlags::RWMODE == OFlags::RDWR
         && FileType::from_raw_mode(found.st_mode) == FileType::CharacterDevice
         && found.st_rdev == null.rdev()
-}
-
-#[cfg(not(unix))]
-fn is_placeholder() -> bool {
-    false
 }

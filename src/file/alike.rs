@@ -8,16 +8,13 @@ use super::calls::call;
 
 /// Copies owner, extended attributes and mode of the file at `path` to `twin`.
 pub(super) fn take_after(path: &Path, metadata: &Metadata, twin: &File) -> io::Result<()> {
-    #[cfg(unix)]
-    {
-        use rustix::fs::{Gid, Uid, fchown};
-        use std::os::unix::fs::MetadataExt;
-        let own = twin.metadata()?;
-        if (own.uid(), own.gid()) != (metadata.uid(), metadata.gid()) {
-            let owner = Uid::from_raw(metadata.uid());
-            let group = Gid::from_raw(metadata.gid());
-            call("fchown", || Ok(fchown(twin, Some(owner), Some(group))?))?;
-        }
+    use rustix::fs::{Gid, Uid, fchown};
+    use std::os::unix::fs::MetadataExt;
+    let own = twin.metadata()?;
+    if (own.uid(), own.gid()) != (metadata.uid(), metadata.gid()) {
+        let owner = Uid::from_raw(metadata.uid());
+        let group = Gid::from_raw(metadata.gid());
+        call("fchown", || Ok(fchown(twin, Some(owner), Some(group))?))?;
     }
     #[cfg(any(target_os = "linux", target_vendor = "apple"))]
     copy_attributes(path, twin)?;

@@ -163,18 +163,10 @@ fn is_in_use(copy: &Path) -> bool {
 
 /// Whether the copy belongs to this user.
 fn is_own(copy: &Path) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt;
-        let user = rustix::process::geteuid().as_raw();
-        copy.symlink_metadata()
-            .is_ok_and(|metadata| metadata.uid() == user)
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = copy;
-        true
-    }
+    use std::os::unix::fs::MetadataExt;
+    let user = rustix::process::geteuid().as_raw();
+    copy.symlink_metadata()
+        .is_ok_and(|metadata| metadata.uid() == user)
 }
 
 fn name_of(path: &Path, inode: u64) -> String {
@@ -200,14 +192,6 @@ fn shown_name(path: &Path) -> String {
 
 /// The inode, which is the same for all hard links; 0 where there are none.
 fn inode(metadata: &Metadata) -> u64 {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt;
-        metadata.ino()
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = metadata;
-        0
-    }
+    use std::os::unix::fs::MetadataExt;
+    metadata.ino()
 }

@@ -81,11 +81,8 @@ pub(super) fn injected(name: &'static str) -> io::Result<()> {
 
 /// Ends the process abruptly, like a power cut.
 fn kill() -> ! {
-    #[cfg(unix)]
-    {
-        use rustix::process::{Signal, getpid, kill_process};
-        let _ = kill_process(getpid(), Signal::KILL);
-    }
+    use rustix::process::{Signal, getpid, kill_process};
+    let _ = kill_process(getpid(), Signal::KILL);
     std::process::abort()
 }
 

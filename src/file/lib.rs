@@ -259,18 +259,8 @@ fn first_zero(bytes: &[u8]) -> Option<usize> {
 }
 
 /// Reads from the beginning of a file; the file position does not advance.
-#[cfg(unix)]
 fn read_start(file: &File, start: &mut [u8]) -> io::Result<usize> {
     std::os::unix::fs::FileExt::read_at(file, start, 0)
-}
-
-/// Reads from the beginning of a file; the file position does not advance.
-#[cfg(not(unix))]
-fn read_start(mut file: &File, start: &mut [u8]) -> io::Result<usize> {
-    use std::io::Seek;
-    let length = file.read(start)?;
-    file.rewind()?;
-    Ok(length)
 }
 
 /// The number, from 1, of the line that contains the end of `before`.
@@ -360,19 +350,11 @@ pub fn is_same(one: &Path, other: &Path) -> bool {
 /// Whether a path names something of the user's own, whether or not that can be read. `false` if
 /// there is nothing, or nothing can be there.
 pub fn is_own(path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
     let Ok(found) = path.symlink_metadata() else {
         return false;
     };
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt;
-        found.uid() == rustix::process::geteuid().as_raw()
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = found;
-        true
-    }
+    found.uid() == rustix::process::geteuid().as_raw()
 }
 
 /// Opens a regular file for reading. Never blocks, as opening a pipe without a writer would.
@@ -411,30 +393,24 @@ pub fn regular(file: File, path: &Path) -> Result<File, ReadError> {
 }
 
 fn without_waiting(options: &mut OpenOptions) -> &mut OpenOptions {
-    #[cfg(unix)]
-    {
-        use rustix::fs::OFlags;
-        use std::os::unix::fs::OpenOptionsExt;
-        // Opening a terminal by its path must not make it the controlling terminal.
-        let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
-        options.custom_flags(flags.bits() as i32);
-    }
+    use rustix::fs::OFlags;
+    use std::os::unix::fs::OpenOptionsExt;
+    // Opening a terminal by its path must not make it the controlling terminal.
+    let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
+    options.custom_flags(flags.bits() as i32);
     options
 }
 
 fn kind(file_type: FileType) -> &'static str {
+    use std::os::unix::fs::FileTypeExt;
     if file_type.is_dir() {
         return "a folder";
     }
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::FileTypeExt;
-        if file_type.is_fifo() {
-            return "a pipe";
-        }
-        if file_type.is_socket() {
-            return "a socket";
-        }
+    if file_type.is_fifo() {
+        return "a pipe";
+    }
+    if file_type.is_socket() {
+        return "a socket";
     }
     "a device"
 }
@@ -446,7 +422,6 @@ fn read_open(file: &File, limit: u64) -> io::Result<Vec<u8>> {
     }
     let mut bytes = Vec::new();
     bytes.try_reserve_exact(length as usize)?;
-    #[cfg(unix)]
     read_by_parts(file, length as usize, &mut bytes)?;
     // The file may have grown meanwhile.
     let rest = limit + 1 - bytes.len() as u64;
@@ -459,7 +434,6 @@ fn read_open(file: &File, limit: u64) -> io::Result<Vec<u8>> {
 
 /// Reads the first `length` bytes of a large file in parallel: if they are cached, allocating
 /// memory for them is most of the work. Reads nothing of small files and of files that shrink.
-#[cfg(unix)]
 fn read_by_parts(mut file: &File, length: usize, bytes: &mut Vec<u8>) -> io::Result<()> {
     use std::io::{Seek, SeekFrom};
     use std::os::unix::fs::FileExt;

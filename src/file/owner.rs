@@ -111,10 +111,7 @@ fn hash(value: impl Hash) -> u32 {
 /// Identifies this machine: a hash of its name, and of its machine ID if it has one.
 fn host() -> u32 {
     let number = fs::read("/etc/machine-id").unwrap_or_default();
-    #[cfg(unix)]
     let name = rustix::system::uname().nodename().to_owned();
-    #[cfg(not(unix))]
-    let name = std::env::var_os("COMPUTERNAME");
     hash((name, number))
 }
 
@@ -132,17 +129,12 @@ fn began(process: u32) -> Option<u64> {
     rest.split_ascii_whitespace().nth(19)?.parse().ok()
 }
 
-#[cfg(all(unix, not(target_os = "linux")))]
+#[cfg(not(target_os = "linux"))]
 fn began(process: u32) -> Option<u64> {
     use rustix::io::Errno;
     use rustix::process::{Pid, test_kill_process};
     let known = test_kill_process(Pid::from_raw(process.cast_signed())?);
     (known != Err(Errno::SRCH)).then_some(0)
-}
-
-#[cfg(not(unix))]
-fn began(_process: u32) -> Option<u64> {
-    Some(0)
 }
 
 #[cfg(all(test, target_os = "linux"))]

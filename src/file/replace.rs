@@ -13,7 +13,6 @@ use super::lock::{Lock, lock};
 use super::stream;
 use super::target::{Target, directory_of, not_a_file, open};
 use super::temporary::{Access, Temporary, is_refusal, sync_directory};
-#[cfg(unix)]
 use super::version::FileId;
 use super::version::Version;
 
@@ -143,15 +142,9 @@ fn twin(path: &Path, metadata: &Metadata) -> io::Result<Option<Temporary>> {
     }
 }
 
-#[cfg(unix)]
 fn is_hard_linked(metadata: &Metadata) -> bool {
     use std::os::unix::fs::MetadataExt;
     1 < metadata.nlink()
-}
-
-#[cfg(not(unix))]
-fn is_hard_linked(_metadata: &Metadata) -> bool {
-    false
 }
 
 fn overwrite<E: From<io::Error>>(
@@ -185,7 +178,6 @@ fn overwrite<E: From<io::Error>>(
 /// Locks a file that is to be replaced, so that no other writer replaces it between `confirm` and
 /// the rename. Returns the lock. `None` if there are no locks, or after [`LOCK_PATIENCE`]: a lock of
 /// another program may mean anything.
-#[cfg(unix)]
 fn wait_for_turn(path: &Path) -> Option<File> {
     let give_up = Instant::now() + LOCK_PATIENCE;
     loop {
@@ -201,25 +193,16 @@ fn wait_for_turn(path: &Path) -> Option<File> {
     }
 }
 
-/// As elsewhere, but a lock would also keep this process from reading the file by its name.
-#[cfg(not(unix))]
-fn wait_for_turn(_path: &Path) -> Option<File> {
-    None
-}
-
 /// Waits until no other program has the file locked, under any of its names. Fails after
 /// [`LOCK_PATIENCE`].
 fn wait_for_others(file: &File) -> io::Result<()> {
-    // On other systems a lock would also keep this process from reading the file by its name.
-    if cfg!(unix) {
-        let give_up = Instant::now() + LOCK_PATIENCE;
-        // If files cannot be locked, no other writer is known.
-        while lock(file) == Lock::Busy {
-            if give_up < Instant::now() {
-                return Err(io::Error::other("locked by another program"));
-            }
-            thread::sleep(LOCK_RETRY);
+    let give_up = Instant::now() + LOCK_PATIENCE;
+    // If files cannot be locked, no other writer is known.
+    while lock(file) == Lock::Busy {
+        if give_up < Instant::now() {
+            return Err(io::Error::other("locked by another program"));
         }
+        thread::sleep(LOCK_RETRY);
     }
     Ok(())
 }

@@ -7,10 +7,7 @@
 //! `/tmp`, where nobody can move files that belong to somebody else. No link in it is followed, and
 //! files are replaced by new ones, so that nothing outside is ever written to.
 
-#[cfg(not(unix))]
-mod plain;
-#[cfg(unix)]
-mod unix;
+mod handle;
 
 use std::env;
 use std::ffi::OsString;
@@ -19,10 +16,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process;
 
-#[cfg(not(unix))]
-use plain::{FolderHandle, Missing, at, suspicion};
-#[cfg(unix)]
-use unix::{FolderHandle, Missing, at, suspicion};
+use handle::{FolderHandle, Missing, at, suspicion};
 
 /// What is kept, each in a folder of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,7 +89,6 @@ impl Folder {
     /// Opens a folder in a state folder, creating both if they are missing.
     pub fn make(state: &Path, part: Store) -> io::Result<Self> {
         let mut builder = DirBuilder::new();
-        #[cfg(unix)]
         std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
         let created = builder.recursive(true).create(state);
         created.map_err(|error| at(state, &error))?;

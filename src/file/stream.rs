@@ -6,7 +6,6 @@ use std::path::Path;
 
 /// Opens a pipe or a device for writing. Waits up to a second for a pipe's reader, which may have
 /// been started at the same time. Fails if there is none.
-#[cfg(unix)]
 pub(super) fn open(path: &Path) -> io::Result<File> {
     use std::thread;
     use std::time::{Duration, Instant};
@@ -38,9 +37,4 @@ pub(super) fn open(path: &Path) -> io::Result<File> {
     let flags = fcntl_getfl(&stream)?;
     fcntl_setfl(&stream, flags - OFlags::NONBLOCK)?;
     Ok(stream)
-}
-
-#[cfg(not(unix))]
-pub(super) fn open(path: &Path) -> io::Result<File> {
-    OpenOptions::new().write(true).open(path)
 }

@@ -64,6 +64,7 @@ pub(super) fn not_a_file(kind: &str) -> io::Error {
 /// Fails if [`deliver`](super::deliver) could not write to `path`, as far as that can be determined
 /// without writing. Meant to be called before long work whose result goes there.
 pub fn check_target(path: &Path) -> io::Result<()> {
+    use rustix::fs::{Access, access};
     match Target::of(path)? {
         Target::New(path) => {
             let directory = directory_of(&path);
@@ -74,11 +75,7 @@ pub fn check_target(path: &Path) -> io::Result<()> {
             if !found.is_dir() {
                 return Err(io::ErrorKind::NotADirectory.into());
             }
-            #[cfg(unix)]
-            {
-                use rustix::fs::{Access, access};
-                access(directory, Access::WRITE_OK | Access::EXEC_OK)?;
-            }
+            access(directory, Access::WRITE_OK | Access::EXEC_OK)?;
             Ok(())
         }
         // Not opened: a pipe's reader would notice.

@@ -163,12 +163,9 @@ pub(super) fn copy_all(mut from: &File, to: &File) -> io::Result<()> {
 
 /// Makes a new name durable. Some file systems cannot; the file is complete either way.
 pub(super) fn sync_directory(directory: &Path) {
-    #[cfg(unix)]
     if let Ok(directory) = File::open(directory) {
         let _ = call("fsync", || directory.sync_all());
     }
-    #[cfg(not(unix))]
-    let _ = directory;
 }
 
 /// Whether an error means that a folder is not writable.
@@ -182,15 +179,11 @@ pub(super) fn is_refusal(error: &io::Error) -> bool {
 fn options(access: Access) -> OpenOptions {
     let mut options = OpenOptions::new();
     options.read(true).write(true);
-    #[cfg(unix)]
     std::os::unix::fs::OpenOptionsExt::mode(&mut options, mode(access));
-    #[cfg(not(unix))]
-    let _ = access;
     options
 }
 
 /// The mode to request. The kernel applies the umask, which cannot be read without changing it.
-#[cfg(unix)]
 fn mode(access: Access) -> u32 {
     match access {
         Access::AsUsual => 0o666,
@@ -241,19 +234,12 @@ fn place_of(file: &File) -> PathBuf {
 
 /// Whether an error means that this file system or process cannot name an unnamed file.
 fn is_unlinkable(error: &io::Error) -> bool {
-    #[cfg(unix)]
-    {
-        use rustix::io::Errno;
-        let errno = Errno::from_io_error(error);
-        matches!(
-            errno,
-            Some(Errno::OPNOTSUPP | Errno::PERM | Errno::XDEV | Errno::NOSYS | Errno::MLINK)
-        ) || error.kind() == io::ErrorKind::Unsupported
-    }
-    #[cfg(not(unix))]
-    {
-        error.kind() == io::ErrorKind::Unsupported
-    }
+    use rustix::io::Errno;
+    let errno = Errno::from_io_error(error);
+    matches!(
+        errno,
+        Some(Errno::OPNOTSUPP | Errno::PERM | Errno::XDEV | Errno::NOSYS | Errno::MLINK)
+    ) || error.kind() == io::ErrorKind::Unsupported
 }
 
 /// Renames a file unless the new name is in use; atomically if the file system supports that.
@@ -274,14 +260,6 @@ fn rename_to_new(from: &Path, to: &Path) -> io::Result<()> {
 }
 
 fn is_gone(file: &File) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt;
-        file.metadata().is_ok_and(|metadata| metadata.nlink() == 0)
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = file;
-        false
-    }
+    use std::os::unix::fs::MetadataExt;
+    file.metadata().is_ok_and(|metadata| metadata.nlink() == 0)
 }

@@ -1,6 +1,5 @@
 //! Detects changes of a file without reading it.
 
-#[cfg(unix)]
 use std::fs::File;
 use std::fs::{self, Metadata};
 use std::io;
@@ -11,26 +10,18 @@ use std::time::SystemTime;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileId(
     /// The device and the inode.
-    #[cfg(unix)]
     (u64, u64),
-    #[cfg(not(unix))] std::path::PathBuf,
 );
 
 impl FileId {
     /// The identity of what a path refers to, following links; `None` if it does not exist.
     pub fn of(path: &Path) -> Option<Self> {
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::MetadataExt;
-            let metadata = fs::metadata(path).ok()?;
-            Some(Self((metadata.dev(), metadata.ino())))
-        }
-        #[cfg(not(unix))]
-        fs::canonicalize(path).ok().map(Self)
+        use std::os::unix::fs::MetadataExt;
+        let metadata = fs::metadata(path).ok()?;
+        Some(Self((metadata.dev(), metadata.ino())))
     }
 
     /// The identity of an open file.
-    #[cfg(unix)]
     pub(super) fn of_file(file: &File) -> Option<Self> {
         use std::os::unix::fs::MetadataExt;
         let metadata = file.metadata().ok()?;
@@ -45,12 +36,10 @@ pub struct Version {
     length: u64,
     /// When the content was last written; writers can set this back.
     modified: Option<SystemTime>,
-    #[cfg(unix)]
     node: FileIdentity,
 }
 
 /// The attributes that only the file system sets.
-#[cfg(unix)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct FileIdentity {
     device: u64,
@@ -66,12 +55,10 @@ impl Version {
     }
 
     pub(super) fn of_metadata(metadata: &Metadata) -> Self {
-        #[cfg(unix)]
         use std::os::unix::fs::MetadataExt;
         Self {
             length: metadata.len(),
             modified: metadata.modified().ok(),
-            #[cfg(unix)]
             node: FileIdentity {
                 device: metadata.dev(),
                 inode: metadata.ino(),

@@ -83,18 +83,13 @@ pub fn limits() -> Vec<Available> {
 /// The known limits. This system does not report how much of them is used.
 #[cfg(not(target_os = "linux"))]
 pub fn limits() -> Vec<Available> {
-    #[cfg(unix)]
-    {
-        use rustix::process::{Resource, getrlimit};
-        let limit = getrlimit(Resource::As).current;
-        limit
-            .map(|bytes| Available {
-                bytes,
-                limit: Limit::AddressSpace,
-            })
-            .into_iter()
-            .collect()
-    }
-    #[cfg(not(unix))]
-    Vec::new()
+    use rustix::process::{Resource, getrlimit};
+    let limit = getrlimit(Resource::As).current;
+    limit
+        .map(|bytes| Available {
+            bytes,
+            limit: Limit::AddressSpace,
+        })
+        .into_iter()
+        .collect()
 }

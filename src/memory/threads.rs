@@ -51,12 +51,7 @@ pub(super) fn address_space() -> u64 {
 }
 
 pub(super) fn address_space_limit() -> Option<u64> {
-    #[cfg(unix)]
-    {
-        rustix::process::getrlimit(rustix::process::Resource::As).current
-    }
-    #[cfg(not(unix))]
-    None
+    rustix::process::getrlimit(rustix::process::Resource::As).current
 }
 
 /// Starts rayon's global pool, used by work outside any other pool, with as many threads as the

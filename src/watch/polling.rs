@@ -16,9 +16,6 @@ const COMPARED: u64 = 1 << 28;
 /// How long a file may be written to again without a new time.
 const RESOLUTION: Duration = Duration::from_secs(3);
 
-/// Whether the system keeps times that writers cannot set back.
-const HAS_CHANGE_TIMES: bool = cfg!(unix);
-
 /// Compares contents, not times: these may have a resolution of a second, and be set back.
 pub(super) fn poll(
     paths: &[PathBuf],
@@ -74,7 +71,7 @@ impl Seen {
         if version != self.version {
             self.version = version;
             self.since = Instant::now();
-        } else if HAS_CHANGE_TIMES && RESOLUTION < self.since.elapsed() {
+        } else if RESOLUTION < self.since.elapsed() {
             return false;
         }
         let content = fingerprint(path);

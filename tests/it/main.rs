@@ -8,12 +8,10 @@ mod cli;
 mod conversions;
 pub mod corpus;
 mod dat;
-#[cfg(unix)]
 #[path = "../harness/mod.rs"]
 mod harness;
 mod making;
 mod pictures;
-#[cfg(unix)]
 mod pty;
 mod rooms;
 mod watch;

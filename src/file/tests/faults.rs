@@ -48,7 +48,6 @@ impl Case {
                 Some(OLD)
             }),
         ];
-        #[cfg(unix)]
         all.extend([
             Self::new("through a link", |folder| {
                 fs::write(folder.join("end"), OLD).expect("written");
@@ -115,7 +114,6 @@ impl Case {
     }
 }
 
-#[cfg(unix)]
 fn hard_linked(folder: &Path) -> &'static str {
     fs::write(folder.join("s"), OLD).expect("written");
     fs::hard_link(folder.join("s"), folder.join("t")).expect("linked");
@@ -265,7 +263,6 @@ fn without_unnamed_files_the_attributes_are_kept_too() {
 
 /// The system reuses the inode of a deleted file.
 #[test]
-#[cfg(unix)]
 fn a_backup_of_a_deleted_file_is_not_mistaken_for_one_of_another_file() {
     use std::os::unix::fs::MetadataExt;
     let directory = directory();
@@ -298,15 +295,11 @@ fn the_backup_of_an_interrupted_save_is_found() {
     let place = |name: &str| directory.path().join(name);
     fs::write(place("s"), "half of the ne").expect("written");
     fs::hard_link(place("s"), place("t")).expect("linked");
-    #[cfg(unix)]
     let inode = std::os::unix::fs::MetadataExt::ino(&fs::metadata(place("s")).expect("there"));
-    #[cfg(not(unix))]
-    let inode = 0;
     let copy = place(&format!(".halflight-backup-{inode:x}-00c0ffee-s"));
     fs::write(&copy, OLD).expect("written");
     assert_eq!(backups(&place("s")), [copy.as_path()]);
     // Also by the file's other name.
-    #[cfg(unix)]
     assert_eq!(backups(&place("t")), [copy.as_path()]);
     // Later writes keep the copy unless it equals the content.
     replace_with(&place("s"), NEW).expect("written");

@@ -107,6 +107,7 @@ impl Place {
 
 #[test]
 fn a_trace_is_read_back_for_the_same_picture_only() {
+    use std::os::unix::fs::PermissionsExt;
     type Change = fn(&mut Provenance);
     let (place, first) = (Place::new(), job(4));
     let found = place.read(&picture(&first));
@@ -126,13 +127,9 @@ fn a_trace_is_read_back_for_the_same_picture_only() {
         change(&mut other);
         assert_eq!(place.read(&other), None, "{other:?}");
     }
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        let folder = fs::metadata(place.kept()).expect("a folder");
-        let mode = folder.permissions().mode();
-        assert_eq!(mode & 0o777, 0o700);
-    }
+    let folder = fs::metadata(place.kept()).expect("a folder");
+    let mode = folder.permissions().mode();
+    assert_eq!(mode & 0o777, 0o700);
 }
 
 #[test]
@@ -259,7 +256,6 @@ fn overfill(place: &Place) {
 }
 
 #[test]
-#[cfg(unix)]
 fn files_of_others_are_neither_removed_nor_replaced() {
     use std::os::unix::fs::symlink;
     let (place, first) = (Place::new(), job(1));
@@ -303,7 +299,6 @@ fn files_of_others_are_neither_removed_nor_replaced() {
 }
 
 #[test]
-#[cfg(unix)]
 fn a_folder_that_leads_elsewhere_is_not_used() {
     let (place, job) = (Place::new(), job(1));
     place.write(&job, &traced(&job));

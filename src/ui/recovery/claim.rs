@@ -181,7 +181,6 @@ mod tests {
     use language::Language;
 
     #[test]
-    #[cfg(unix)]
     fn a_claim_ends_despite_copies_of_its_file() {
         let state = tempfile::tempdir().expect("a folder");
         let folder = Arc::new(Folder::make(state.path(), Store::Edits).expect("a folder"));

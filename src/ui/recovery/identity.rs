@@ -110,7 +110,6 @@ mod tests {
     }
 
     #[test]
-    #[cfg(unix)]
     fn a_scene_is_the_same_under_all_its_names() {
         let place = tempfile::tempdir().expect("a folder");
         let at = |name: &str| place.path().join(name);

@@ -1,6 +1,5 @@
 //! Journals on a real file system: keeping, finding, refusing and leaving them alone.
 
-#[cfg(unix)]
 mod hostile;
 
 use std::fs::{self, File};
@@ -167,7 +166,6 @@ fn known(base: &Arc<String>, text: &str) -> Snapshot {
 }
 
 #[test]
-#[cfg(unix)]
 fn edits_of_a_running_process_are_not_offered() {
     let place = Place::new();
     let (mut first, mut second) = (place.run(), place.run());

@@ -169,7 +169,6 @@ struct Running(Child);
 
 impl Running {
     fn start(command: &mut Command) -> Result<Self, String> {
-        #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(command, 0);
         let spawned = command.spawn().map(Self);
         spawned.map_err(|error| match error.kind() {
@@ -206,14 +205,11 @@ impl Running {
 
 impl Drop for Running {
     fn drop(&mut self) {
+        use rustix::process::{Pid, Signal, kill_process_group};
         if matches!(self.0.try_wait(), Ok(Some(_))) {
             return;
         }
-        #[cfg(unix)]
-        {
-            use rustix::process::{Pid, Signal, kill_process_group};
-            let _ = kill_process_group(Pid::from_child(&self.0), Signal::KILL);
-        }
+        let _ = kill_process_group(Pid::from_child(&self.0), Signal::KILL);
         let _ = self.0.kill();
         let _ = self.0.wait();
     }

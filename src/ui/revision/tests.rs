@@ -1,6 +1,5 @@
 //! Scenes in repositories, some of which want to run programs.
 
-#[cfg(unix)]
 mod planted;
 
 use std::fs;
@@ -92,14 +91,12 @@ fn what_is_no_file_of_the_revision_is_said() {
     for name in ["folder.ray/a.ray", "bytes.ray"] {
         fs::write(at(name), [0xFF]).expect("the folder is new");
     }
-    #[cfg(unix)]
     std::os::unix::fs::symlink("bytes.ray", at("link.ray")).expect("the folder is new");
     commit(folder.path());
     fs::write(at("new.ray"), "").expect("the folder is new");
     for (name, reason) in [
         ("new.ray", "is not in HEAD"),
         ("folder.ray", "in HEAD is not a file"),
-        #[cfg(unix)]
         ("link.ray", "in HEAD is not a file"),
         ("bytes.ray", "in HEAD is not UTF-8 text"),
     ] {

@@ -58,5 +58,5 @@ impl<S: Fn(Msg) + Clone + Send + 'static> AssetThread<S> {
     }
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
 mod tests;

@@ -201,7 +201,6 @@ mod tests {
         assert_eq!(list_in(folder.path()), [scene]);
     }
 
-    #[cfg(unix)]
     #[test]
     fn nothing_outside_the_folder_is_read_or_written() {
         use std::os::unix::fs::symlink;

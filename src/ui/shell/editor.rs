@@ -104,7 +104,6 @@ fn ending(program: &str, status: ExitStatus) -> Result<(), String> {
     if status.success() {
         return Ok(());
     }
-    #[cfg(unix)]
     if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
         let reason = format!("the editor {program} was killed by signal {signal}");
         return Err(reason);

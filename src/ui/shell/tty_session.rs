@@ -4,7 +4,6 @@
 use std::io;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
-#[cfg(unix)]
 use std::sync::mpsc::{self, Receiver};
 
 use std::time::{Duration, Instant};
@@ -15,7 +14,6 @@ use crate::options::Options;
 use crate::queue::spawn;
 use crate::terminal::query::Question;
 use crate::terminal::{self, Input, Replies, Reply, Terminal, Unread, tmux};
-#[cfg(unix)]
 use crate::terminal::{Signals, suspend_process};
 
 /// Maximum time to wait for replies of the terminal before handing it over; longer than nearly all
@@ -30,10 +28,8 @@ pub(super) struct TtySession {
     /// Replies still expected from the terminal.
     pub(super) replies: Arc<Replies>,
     input: Input,
-    #[cfg(unix)]
     signals: Signals,
     /// Signals that have arrived, each announced by [`Event::Signalled`].
-    #[cfg(unix)]
     arrived: Receiver<Msg>,
     sender: Sender<Event>,
 }
@@ -42,7 +38,6 @@ impl TtySession {
     /// Takes over the terminal and starts reading keys and signals.
     pub(super) fn enter(options: &Options, sender: &Sender<Event>) -> io::Result<Self> {
         // Before the terminal is changed: until then the default actions of signals do no harm.
-        #[cfg(unix)]
         let (signals, arrived) = watch(sender)?;
         let terminal = {
             let sender = sender.clone();
@@ -56,9 +51,7 @@ impl TtySession {
             terminal,
             input: Input::start(typing(sender, &replies))?,
             replies,
-            #[cfg(unix)]
             signals,
-            #[cfg(unix)]
             arrived,
             sender: sender.clone(),
         })
@@ -66,10 +59,7 @@ impl TtySession {
 
     /// The next signal that has arrived.
     pub(super) fn next_signal(&self) -> Option<Msg> {
-        #[cfg(unix)]
-        return self.arrived.try_recv().ok();
-        #[cfg(not(unix))]
-        None
+        self.arrived.try_recv().ok()
     }
 
     /// Queries the terminal and, through tmux, the terminal behind it. Any answers arrive as
@@ -102,10 +92,8 @@ impl TtySession {
     pub(super) fn lend<T>(&mut self, run: impl FnOnce() -> T) -> io::Result<T> {
         self.await_replies(Instant::now() + REPLY_PATIENCE);
         self.input.park();
-        #[cfg(unix)]
         self.signals.lend();
         let ran = self.terminal.leave().map(|()| run());
-        #[cfg(unix)]
         self.signals.take_back();
         self.take()?;
         ran
@@ -119,7 +107,6 @@ impl TtySession {
     }
 
     /// Stops the process until it is continued.
-    #[cfg(unix)]
     pub(super) fn suspend(&mut self) -> io::Result<()> {
         self.await_replies(Instant::now() + REPLY_PATIENCE);
         self.input.park();
@@ -133,11 +120,6 @@ impl TtySession {
                 Err(error)
             }
         }
-    }
-
-    #[cfg(not(unix))]
-    pub(super) fn suspend(&mut self) -> io::Result<()> {
-        Err(io::ErrorKind::Unsupported.into())
     }
 
     /// Restores the terminal, waiting until `deadline` at most.
@@ -171,7 +153,6 @@ fn typing(
 }
 
 /// Starts watching signals, which do not wait for what is in the inbox.
-#[cfg(unix)]
 fn watch(sender: &Sender<Event>) -> io::Result<(Signals, Receiver<Msg>)> {
     let (arrive, arrived) = mpsc::channel();
     let sender = sender.clone();

@@ -52,10 +52,6 @@ impl ColourDepth {
         if set("NO_COLOR") {
             return Self::Mono;
         }
-        if cfg!(windows) && !set("TERM") {
-            // Every console since Windows 10 shows all colours, and none sets a variable.
-            return Self::TrueColour;
-        }
         let promised = variable("COLORTERM");
         if set("TMUX") && matches!(promised.as_deref(), Some("truecolor" | "24bit")) {
             return Self::TrueColour;

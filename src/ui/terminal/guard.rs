@@ -12,7 +12,6 @@ use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Rect};
 use ratatui::terminal::Frame;
 
-#[cfg(unix)]
 use super::abort;
 use super::backend::AnsiBackend;
 use super::base64;
@@ -78,7 +77,6 @@ impl Terminal {
         let backend = AnsiBackend::new(colours, tty::size());
         let Ok(screen) = ratatui::terminal::Terminal::new(backend);
         let shared = GuardState::install(output, restore);
-        #[cfg(unix)]
         abort::install(&shared, LEAVE)?;
         let mut terminal = Self {
             screen,
@@ -217,14 +215,10 @@ impl Terminal {
                 before = self.shared.keys_ending();
                 // crossterm assumes that raw mode persists once set, and leaving it to set it again
                 // would echo keys typed meanwhile.
-                #[cfg(unix)]
                 tty::make_raw()?;
             } else {
                 crossterm::terminal::enable_raw_mode()?;
             }
-            // This query enables escape sequences in a Windows console.
-            #[cfg(windows)]
-            let _ = crossterm::ansi_support::supports_ansi();
             *ownership = Ownership::Ours;
             // Whoever had the terminal may have changed the setting of keys.
             for sequence in [ENTER, mouse_sequence(self.mouse), before] {

@@ -1,7 +1,4 @@
 //! The thread that reads the keyboard and can release it.
-//!
-//! On Unix the bytes are read here, not by crossterm 0.29: its reader blocks in the middle of a
-//! sequence, where it cannot be parked, and spins when the terminal is gone (crossterm#793).
 
 use std::io;
 use std::sync::Arc;
@@ -10,12 +7,8 @@ use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use std::thread::JoinHandle;
 
 use super::Event;
+use super::keyboard::{Keyboard, Wake, Waker};
 use crate::queue::spawn;
-
-#[cfg(unix)]
-use unix::{Keyboard, Waker};
-#[cfg(not(unix))]
-use windows::{Keyboard, Waker};
 
 /// The most that may be unread, in keys and in bytes of pastes, before no more is read. Then the
 /// system and the terminal hold back the rest, however much is typed.
@@ -78,15 +71,6 @@ impl Drop for Unread {
             self.flow.waker.wake();
         }
     }
-}
-
-/// Reason why the keyboard stopped waiting.
-#[derive(Debug, PartialEq, Eq)]
-enum Wake {
-    /// Something was read, a deadline has passed, or requests must be checked.
-    Again,
-    /// No more keys will come.
-    Gone,
 }
 
 impl Input {
@@ -167,170 +151,6 @@ fn read(mut keyboard: Keyboard, inbox: &Receiver<Request>, flow: &Flow, send: &i
                     return;
                 }
             }
-        }
-    }
-}
-
-#[cfg(unix)]
-mod unix {
-    use std::io::{self, Write};
-    use std::os::fd::OwnedFd;
-    use std::os::unix::net::UnixStream;
-    use std::time::Instant;
-
-    use rustix::event::{PollFd, PollFlags, Timespec, poll};
-    use rustix::io::Errno;
-
-    use super::Wake;
-    use crate::terminal::decode::Decoder;
-    use crate::terminal::{Event, tty};
-
-    /// The input side of the terminal.
-    #[derive(Debug)]
-    pub(super) struct Keyboard {
-        tty: OwnedFd,
-        woken: UnixStream,
-        decoder: Decoder,
-    }
-
-    /// Ends a wait from another thread.
-    #[derive(Debug)]
-    pub(super) struct Waker(UnixStream);
-
-    impl Waker {
-        pub(super) fn wake(&self) {
-            // A full pipe also wakes the thread.
-            let _ = (&self.0).write(&[0]);
-        }
-    }
-
-    impl Keyboard {
-        pub(super) fn open() -> io::Result<(Self, Waker)> {
-            let (woken, waker) = UnixStream::pair()?;
-            woken.set_nonblocking(true)?;
-            waker.set_nonblocking(true)?;
-            let keyboard = Self {
-                tty: tty::keyboard()?,
-                woken,
-                decoder: Decoder::default(),
-            };
-            Ok((keyboard, Waker(waker)))
-        }
-
-        /// Waits for keys, for the timeout of a held key, or for the waker.
-        pub(super) fn wait(&mut self, send: &impl Fn(Event)) -> Wake {
-            let timeout = self.decoder.deadline().and_then(|deadline| {
-                Timespec::try_from(deadline.saturating_duration_since(Instant::now())).ok()
-            });
-            let mut sources = [
-                PollFd::new(&self.tty, PollFlags::IN),
-                PollFd::new(&self.woken, PollFlags::IN),
-            ];
-            match poll(&mut sources, timeout.as_ref()) {
-                Ok(_) => {}
-                Err(Errno::INTR) => return Wake::Again,
-                Err(_) => return Wake::Gone,
-            }
-            let [keys, woken] = sources.map(|source| source.revents());
-            if !woken.is_empty() {
-                tty::drain(&self.woken);
-            }
-            if keys.intersects(PollFlags::HUP | PollFlags::ERR | PollFlags::NVAL) {
-                return Wake::Gone;
-            }
-            // Pending bytes are read before the terminal counts as gone.
-            if keys.contains(PollFlags::IN) {
-                return self.read(send);
-            }
-            self.decoder.expire(Instant::now(), send);
-            Wake::Again
-        }
-
-        /// Waits for the waker only. A held key waits too: what decides about it may be among the
-        /// bytes that are not read.
-        pub(super) fn pause(&self) -> Wake {
-            match poll(&mut [PollFd::new(&self.woken, PollFlags::IN)], None) {
-                Ok(_) => tty::drain(&self.woken),
-                Err(Errno::INTR) => {}
-                Err(_) => return Wake::Gone,
-            }
-            Wake::Again
-        }
-
-        fn read(&mut self, send: &impl Fn(Event)) -> Wake {
-            let mut bytes = [0; 1024];
-            match rustix::io::read(&self.tty, &mut bytes) {
-                Ok(0) => Wake::Gone,
-                Ok(count) => {
-                    self.decoder.feed(&bytes[..count], Instant::now(), send);
-                    Wake::Again
-                }
-                Err(Errno::INTR | Errno::AGAIN) => Wake::Again,
-                Err(_) => Wake::Gone,
-            }
-        }
-    }
-}
-
-#[cfg(not(unix))]
-mod windows {
-    use std::io;
-    use std::time::Duration;
-
-    use crossterm::event::{self, KeyEventKind, MouseEventKind};
-
-    use super::Wake;
-    use crate::terminal::Event;
-
-    /// Maximum duration of a wait, and therefore of parking.
-    const PATIENCE: Duration = Duration::from_millis(20);
-
-    /// The console, read by crossterm.
-    #[derive(Debug)]
-    pub(super) struct Keyboard;
-
-    /// Does nothing, as waits are short.
-    #[derive(Debug)]
-    pub(super) struct Waker;
-
-    impl Waker {
-        pub(super) fn wake(&self) {}
-    }
-
-    impl Keyboard {
-        pub(super) fn open() -> io::Result<(Self, Waker)> {
-            Ok((Self, Waker))
-        }
-
-        #[expect(clippy::unused_self, reason = "the same on all systems")]
-        pub(super) fn pause(&self) -> Wake {
-            std::thread::sleep(PATIENCE);
-            Wake::Again
-        }
-
-        pub(super) fn wait(&mut self, send: &impl Fn(Event)) -> Wake {
-            match event::poll(PATIENCE) {
-                Ok(false) => return Wake::Again,
-                Ok(true) => {}
-                Err(_) => return Wake::Gone,
-            }
-            match event::read() {
-                Ok(event) => meaning(event).into_iter().for_each(send),
-                Err(_) => return Wake::Gone,
-            }
-            Wake::Again
-        }
-    }
-
-    fn meaning(event: event::Event) -> Option<Event> {
-        match event {
-            event::Event::Key(key) if key.kind != KeyEventKind::Release => Some(Event::Key(key)),
-            event::Event::Mouse(mouse) if mouse.kind != MouseEventKind::Moved => {
-                Some(Event::Mouse(mouse))
-            }
-            event::Event::Paste(text) => Some(Event::Paste(text)),
-            event::Event::Resize(columns, rows) => Some(Event::Resize { columns, rows }),
-            _ => None,
         }
     }
 }

@@ -2,10 +2,8 @@
 //! exit. While the interface runs, answers arrive in its inbox instead.
 
 use std::io;
-#[cfg(unix)]
 use std::time::{Duration, Instant};
 
-#[cfg(unix)]
 use super::{Protocol, Reply, query};
 
 /// The answers of a terminal.
@@ -41,11 +39,9 @@ impl Answers {
 
 /// Maximum time to wait for answers. Late ones don't count, but must not be left for the shell to
 /// read.
-#[cfg(unix)]
 const LATEST: Duration = Duration::from_secs(1);
 
 /// The answers so far.
-#[cfg(unix)]
 #[derive(Debug)]
 struct Interview {
     asked: Instant,
@@ -54,7 +50,6 @@ struct Interview {
     is_over: bool,
 }
 
-#[cfg(unix)]
 impl Interview {
     fn take(&mut self, reply: Reply, at: Instant) {
         if at.duration_since(self.asked) < query::PATIENCE {
@@ -66,7 +61,6 @@ impl Interview {
 
 /// Queries the terminal connected to standard input and output. Answers count for
 /// [`PATIENCE`](super::query::PATIENCE).
-#[cfg(unix)]
 pub(crate) fn ask() -> io::Result<Answers> {
     use rustix::event::{PollFd, PollFlags, Timespec, poll};
     use rustix::io::Errno;
@@ -120,17 +114,9 @@ pub(crate) fn ask() -> io::Result<Answers> {
     Ok(interview.answers)
 }
 
-/// Returns no answers: replies cannot be read on this system.
-#[cfg(not(unix))]
-pub(crate) fn ask() -> io::Result<Answers> {
-    Ok(Answers::default())
-}
-
 /// Raw mode, until dropped.
-#[cfg(unix)]
 struct Raw;
 
-#[cfg(unix)]
 impl Raw {
     fn enter() -> io::Result<Self> {
         crossterm::terminal::enable_raw_mode()?;
@@ -138,7 +124,6 @@ impl Raw {
     }
 }
 
-#[cfg(unix)]
 impl Drop for Raw {
     fn drop(&mut self) {
         // A terminal that is gone has no modes.
@@ -146,7 +131,7 @@ impl Drop for Raw {
     }
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
 mod tests {
     use super::*;
 

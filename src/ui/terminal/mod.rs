@@ -6,19 +6,18 @@
 //! cannot be mistaken for keys. Since a terminal may stay silent, replies are awaited for a second at
 //! most, and only by reports and before another program gets the terminal.
 
-#[cfg(unix)]
 mod abort;
 mod backend;
 mod base64;
 mod canvas;
 mod colour;
-#[cfg(unix)]
 mod decode;
 mod event;
 mod graphics;
 mod guard;
 mod input;
 pub(crate) mod interview;
+mod keyboard;
 mod link;
 mod nearest;
 mod output;
@@ -27,7 +26,6 @@ mod pen;
 mod print;
 pub(crate) mod query;
 mod reply;
-#[cfg(unix)]
 mod signals;
 pub(crate) mod tmux;
 mod tty;
@@ -37,7 +35,6 @@ pub use backend::AnsiBackend;
 pub(crate) use colour::tests::environment;
 pub use colour::{Choice, ColourDepth};
 pub(crate) use colour::{THEME, colour_on_screen};
-#[cfg(unix)]
 pub use decode::Decoder;
 pub use event::Event;
 pub use graphics::{Means, Pixmap, Protocol, Wrapping};
@@ -46,6 +43,5 @@ pub use input::{Input, Unread};
 pub use link::{Budget, Link};
 pub(crate) use print::printed;
 pub use reply::{Replies, Reply};
-#[cfg(unix)]
 pub use signals::{Signals, suspend_process};
 pub(crate) use tty::{cell_size, complain, size};

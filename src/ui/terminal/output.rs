@@ -10,7 +10,6 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-#[cfg(unix)]
 use rustix::event::Timespec;
 
 use super::tty::TtyWriter;
@@ -23,12 +22,10 @@ const PIECE: usize = 1 << 16;
 const LAST_PATIENCE: Duration = Duration::from_millis(100);
 
 /// Interval and maximum number of polls for the end of a write that has begun: 100 ms.
-#[cfg(unix)]
 const SILENCE_POLL: Timespec = Timespec {
     tv_sec: 0,
     tv_nsec: 1_000_000,
 };
-#[cfg(unix)]
 const SILENCE_POLLS: u32 = 100;
 
 /// The terminal's output, shared by the interface and the panic hook.
@@ -120,7 +117,6 @@ impl Output {
     ///
     /// Waits for a write that has begun, but not indefinitely: the handler may have interrupted it, and
     /// a write to a shared file may block.
-    #[cfg(unix)]
     pub(super) fn fall_silent(&self) {
         self.shared.is_silent.store(true, Ordering::SeqCst);
         for _ in 0..SILENCE_POLLS {
@@ -241,5 +237,5 @@ impl Queue {
     }
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
 mod tests;

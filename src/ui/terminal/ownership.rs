@@ -5,7 +5,6 @@
 
 use std::backtrace::{Backtrace, BacktraceStatus};
 use std::panic::{self, PanicHookInfo};
-#[cfg(unix)]
 use std::sync::TryLockError;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
@@ -83,7 +82,6 @@ impl GuardState {
 
     /// The owner of the terminal, for a signal handler, which must not wait; the interface while
     /// the ownership is changing.
-    #[cfg(unix)]
     pub(super) fn ownership_in_signal(&self) -> Ownership {
         match self.ownership.try_lock() {
             Ok(ownership) => *ownership,
@@ -93,7 +91,6 @@ impl GuardState {
     }
 
     /// Whether the current unsaved edits are stored for recovery, for a signal handler.
-    #[cfg(unix)]
     pub(super) fn has_kept_edits(&self) -> bool {
         self.has_kept_edits.load(Ordering::Relaxed)
     }

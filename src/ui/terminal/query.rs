@@ -16,7 +16,6 @@ pub(super) const COLOURS: &[u8] =
     b"\x1b[38:2::49:73:87m\x1bP$qm\x1b\\\x1b[m\x1bP+q524742\x1b\\\x1bP+q5463\x1b\\";
 
 /// Queries the state of synchronized output (DECRQM).
-#[cfg(unix)]
 pub(super) const MODES: &[u8] = b"\x1b[?2026$p";
 
 /// The channels of the colour set by the query.
@@ -94,7 +93,7 @@ pub(crate) fn may_ask(variable: impl Fn(&str) -> Option<String>) -> bool {
     let is_screen = !in_tmux && set("STY").is_some();
     let is_known = NOT_ASKED.contains(&name) && !(in_tmux && name == "screen");
     let is_apple = !in_tmux && set("TERM_PROGRAM").as_deref() == Some("Apple_Terminal");
-    cfg!(unix) && !is_screen && !is_known && !is_apple
+    !is_screen && !is_known && !is_apple
 }
 
 /// Decodes the contents of a device control string.
@@ -198,10 +197,10 @@ mod tests {
     #[test]
     fn terminals_that_would_display_the_query_are_not_asked() {
         for (variables, expected) in [
-            ("TERM=xterm-256color", cfg!(unix)),
-            ("TERM=xterm", cfg!(unix)),
-            ("TERM=screen-256color TMUX=/x,1,0", cfg!(unix)),
-            ("TERM=tmux-256color TMUX=/x,1,0", cfg!(unix)),
+            ("TERM=xterm-256color", true),
+            ("TERM=xterm", true),
+            ("TERM=screen-256color TMUX=/x,1,0", true),
+            ("TERM=tmux-256color TMUX=/x,1,0", true),
             ("TERM=screen-256color", false),
             ("TERM=xterm-256color STY=1.pts", false),
             ("TERM=linux", false),

@@ -1,11 +1,8 @@
 //! The terminal as a file: size, modes, and writes that wait for a limited time.
 
-#[cfg(unix)]
 use std::fs::File;
 use std::io::{self, Write};
-#[cfg(unix)]
 use std::os::fd::{AsFd, OwnedFd};
-#[cfg(unix)]
 use std::os::unix::net::UnixStream;
 use std::sync::mpsc;
 use std::time::Duration;
@@ -50,7 +47,6 @@ pub(crate) fn cell_size() -> Option<(u16, u16)> {
 }
 
 /// The output side of the terminal.
-#[cfg(unix)]
 #[derive(Debug)]
 pub(super) struct TtyWriter {
     file: OwnedFd,
@@ -59,7 +55,6 @@ pub(super) struct TtyWriter {
     is_shared: bool,
 }
 
-#[cfg(unix)]
 impl TtyWriter {
     /// Maximum size of a write to a shared file, which blocks until the terminal has accepted all
     /// of it.
@@ -147,38 +142,12 @@ impl TtyWriter {
     }
 }
 
-#[cfg(unix)]
 fn open_anew(terminal: &io::Stdout) -> rustix::io::Result<OwnedFd> {
     use rustix::fs::{Mode, OFlags, open};
 
     let name = rustix::termios::ttyname(terminal, Vec::new())?;
     let flags = OFlags::WRONLY | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
     open(name, flags, Mode::empty())
-}
-
-/// The console, written by a thread that may wait for it.
-#[cfg(not(unix))]
-#[derive(Debug)]
-pub(super) struct TtyWriter;
-
-#[cfg(not(unix))]
-impl TtyWriter {
-    pub(super) fn open() -> io::Result<Self> {
-        Ok(Self)
-    }
-
-    pub(super) fn write_at_once(&self, _bytes: &[u8]) -> io::Result<usize> {
-        Ok(0)
-    }
-
-    pub(super) fn discard(&self) {}
-
-    pub(super) fn write<P>(&self, bytes: &[u8], _: impl Fn() -> Option<P>) -> io::Result<usize> {
-        let mut output = io::stdout().lock();
-        output.write_all(bytes)?;
-        output.flush()?;
-        Ok(bytes.len())
-    }
 }
 
 /// Prints a line to standard error, which may be the terminal; does not wait for one that accepts
@@ -197,7 +166,6 @@ pub(crate) fn complain(line: String) {
 
 /// Opens the input side of the terminal: standard input, or the controlling terminal if a scene is
 /// piped in.
-#[cfg(unix)]
 pub(super) fn keyboard() -> io::Result<OwnedFd> {
     let input = io::stdin();
     if rustix::termios::isatty(&input) {
@@ -208,7 +176,6 @@ pub(super) fn keyboard() -> io::Result<OwnedFd> {
 }
 
 /// Reads what has arrived on a stream that does not block, and forgets it.
-#[cfg(unix)]
 pub(super) fn drain(mut stream: &UnixStream) {
     use std::io::Read;
 
@@ -217,7 +184,6 @@ pub(super) fn drain(mut stream: &UnixStream) {
 
 /// Makes the terminal raw, regardless of how its modes were changed. A raw terminal stays raw
 /// throughout.
-#[cfg(unix)]
 pub(super) fn make_raw() -> io::Result<()> {
     use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
 

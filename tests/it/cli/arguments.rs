@@ -76,7 +76,6 @@ fn the_doctor_reports_without_a_terminal() {
 }
 
 #[test]
-#[cfg(unix)]
 fn file_names_cannot_control_the_terminal() {
     let place = Place::new();
     for name in [

@@ -58,7 +58,6 @@ fn a_configuration_that_is_named_must_exist_and_the_usual_one_need_not() {
 }
 
 #[test]
-#[cfg(unix)]
 fn a_home_that_can_hold_no_configuration_has_none() {
     let place = Place::new();
     let run = |line: &str, variable: &str, value: &str| {

@@ -133,22 +133,18 @@ fn only_lists_of_frames_are_appended_to() {
         assert!(place.read("t.frames") == content);
     }
     fs::remove_file(place.at("t.frames")).expect("it is there");
-    #[cfg(unix)]
-    {
-        std::os::unix::fs::symlink("box.ray", place.at("t.frames")).expect("it is new");
-        let said = place.stderr(line, 2);
-        assert!(said.contains("it is a file of the sequence"), "{said}");
-        fs::remove_file(place.at("t.frames")).expect("it is there");
-        let made = Command::new("mkfifo").arg(place.at("t.frames")).status();
-        assert!(made.expect("it starts").success());
-        let said = place.stderr(line, 73);
-        assert!(said.contains("is a pipe, where the list"), "{said}");
-    }
+    std::os::unix::fs::symlink("box.ray", place.at("t.frames")).expect("it is new");
+    let said = place.stderr(line, 2);
+    assert!(said.contains("it is a file of the sequence"), "{said}");
+    fs::remove_file(place.at("t.frames")).expect("it is there");
+    let made = Command::new("mkfifo").arg(place.at("t.frames")).status();
+    assert!(made.expect("it starts").success());
+    let said = place.stderr(line, 73);
+    assert!(said.contains("is a pipe, where the list"), "{said}");
 }
 
 /// A tiny frame, and one that takes minutes.
 #[test]
-#[cfg(unix)]
 fn signals_keep_finished_frames() {
     let place = Place::with_box();
     fs::create_dir(place.at("shots")).expect("it is new");

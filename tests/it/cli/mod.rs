@@ -105,7 +105,6 @@ impl Place {
 }
 
 /// Runs the program from a shell after the commands in `before`.
-#[cfg(unix)]
 fn in_shell(place: &Place, before: &str, line: &str) -> Output {
     let script = format!("{before}; exec {BINARY} {line}");
     let mut shell = Command::new("bash");

@@ -121,15 +121,12 @@ fn parts_that_make_no_picture_are_named() {
         assert!(said.starts_with(&expected), "{said}");
     }
     place.merged(&["none.part".to_owned()], "e.bmp", 66);
-    #[cfg(unix)]
-    {
-        let made = Command::new("mkfifo").arg(place.at("pipe.part")).status();
-        assert!(made.expect("it starts").success());
-        let said = place.merged(&["pipe.part".to_owned()], "e.bmp", 66);
-        assert_eq!(said, "error: pipe.part is a pipe: parts must be files\n");
-        let said = place.stderr("render ball.ray -o pipe.bmp --resume", 73);
-        assert!(said.contains("it is not a part file"), "{said}");
-    }
+    let made = Command::new("mkfifo").arg(place.at("pipe.part")).status();
+    assert!(made.expect("it starts").success());
+    let said = place.merged(&["pipe.part".to_owned()], "e.bmp", 66);
+    assert_eq!(said, "error: pipe.part is a pipe: parts must be files\n");
+    let said = place.stderr("render ball.ray -o pipe.bmp --resume", 73);
+    assert!(said.contains("it is not a part file"), "{said}");
 }
 
 #[test]
@@ -199,7 +196,6 @@ fn parts_need_files_and_fixed_samples() {
 
 /// Statistics and parts that have the place of the picture, or of one another.
 #[test]
-#[cfg(unix)]
 fn outputs_do_not_overwrite_one_another() {
     use std::os::unix::fs::symlink;
     let place = Place::new();
@@ -241,7 +237,6 @@ fn outputs_do_not_overwrite_one_another() {
 }
 
 /// Begins to render, and waits until the part file is longer than `length`, or all is done.
-#[cfg(unix)]
 pub(super) fn begun(place: &Place, line: &str, part: &Path, length: u64) -> std::process::Child {
     let mut child = place.command(line);
     let mut child = child.stderr(Stdio::piped()).spawn().expect("it starts");
@@ -250,7 +245,6 @@ pub(super) fn begun(place: &Place, line: &str, part: &Path, length: u64) -> std:
 }
 
 /// Waits until the part file of a render is longer than `length`, or all is done.
-#[cfg(unix)]
 fn grown(child: &mut std::process::Child, part: &Path, length: u64) {
     let is_longer = || fs::metadata(part).is_ok_and(|file| length < file.len());
     while !is_longer() && child.try_wait().expect("it is a child").is_none() {
@@ -258,7 +252,6 @@ fn grown(child: &mut std::process::Child, part: &Path, length: u64) {
     }
 }
 
-#[cfg(unix)]
 pub(super) fn send(signal: &str, child: &std::process::Child) {
     let mut kill = Command::new("kill");
     kill.args([&format!("-{signal}"), &child.id().to_string()]);
@@ -267,7 +260,6 @@ pub(super) fn send(signal: &str, child: &std::process::Child) {
 }
 
 /// Whether the programs that are run are told if the terminal hangs up; under nohup they are not.
-#[cfg(unix)]
 fn ends_by_hang_up() -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
@@ -276,7 +268,6 @@ fn ends_by_hang_up() -> bool {
 }
 
 #[test]
-#[cfg(unix)]
 fn signals_keep_what_was_traced() {
     let place = Place::new();
     let part = place.at("a.part");
@@ -303,7 +294,6 @@ fn signals_keep_what_was_traced() {
 
 /// As under nohup.
 #[test]
-#[cfg(unix)]
 fn a_signal_that_is_ignored_stays_so() {
     let place = Place::new();
     let part = place.at("a.part");
@@ -324,7 +314,6 @@ fn a_signal_that_is_ignored_stays_so() {
 
 /// Killed after each block, and stopped within blocks.
 #[test]
-#[cfg(unix)]
 fn an_interrupted_picture_is_continued_to_the_same_bytes() {
     let place = Place::new();
     let options = "--size 64x96 --spp 50";
@@ -441,7 +430,6 @@ fn a_part_takes_no_memory_for_what_it_declares() {
 
 /// A link that leads nowhere cannot be continued, whatever the option.
 #[test]
-#[cfg(unix)]
 fn a_dangling_link_is_no_part_to_continue() {
     let place = Place::new();
     std::os::unix::fs::symlink("none/a.part", place.at("a.part")).expect("a link");

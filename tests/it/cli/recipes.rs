@@ -5,14 +5,12 @@ use std::path::Path;
 use super::*;
 
 /// Runs a recipe with the program on the path, and returns the picture.
-#[cfg(unix)]
 fn cooked(place: &Place, recipe: &str, options: &str) -> Vec<u8> {
     assert!(cook(place, recipe, ["ball.ray", "out.png", "3"], options));
     place.read("out.png")
 }
 
 /// Runs a recipe with the program on the path; whether it succeeds.
-#[cfg(unix)]
 fn cook(place: &Place, recipe: &str, arguments: [&str; 3], options: &str) -> bool {
     let folder = Path::new(BINARY).parent().expect("it is in a folder");
     let path = std::env::var("PATH").expect("a path");
@@ -31,7 +29,6 @@ fn cook(place: &Place, recipe: &str, arguments: [&str; 3], options: &str) -> boo
     output.status.success()
 }
 
-#[cfg(unix)]
 fn assert_cooks(recipe: &str) {
     const OPTIONS: &str = "--size 100x40 --spp 4";
     const MORE: &str = "--size 100x40 --spp 8";
@@ -68,7 +65,6 @@ fn assert_cooks(recipe: &str) {
 }
 
 /// Runs a recipe with numbers that are none; no command in them is run.
-#[cfg(unix)]
 fn assert_counts(recipe: &str, before: &[&str]) {
     let place = Place::new();
     // The scheduler does nothing.
@@ -123,21 +119,18 @@ fn pods_may_do_nothing_but_compute() {
 }
 
 #[test]
-#[cfg(unix)]
 fn recipes_for_slurm_check_their_numbers() {
     assert_counts("slurm/submit.sh", &["ball.ray", "out.png"]);
     assert_counts("slurm/merge.sbatch", &["here", "ball.ray", "out.png"]);
 }
 
 #[test]
-#[cfg(unix)]
 fn a_loop_renders_shards() {
     assert_cooks("loop.sh");
 }
 
 /// GNU parallel would evaluate what is in braces.
 #[test]
-#[cfg(unix)]
 fn braces_are_refused_for_gnu_parallel() {
     let recipe = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/recipes/parallel.sh");
     for words in [
@@ -155,7 +148,6 @@ fn braces_are_refused_for_gnu_parallel() {
 
 /// Where GNU parallel is installed.
 #[test]
-#[cfg(unix)]
 fn gnu_parallel_renders_shards() {
     let version = Command::new("parallel").arg("--version").output();
     if version.is_ok_and(|version| version.stdout.starts_with(b"GNU parallel")) {

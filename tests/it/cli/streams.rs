@@ -55,7 +55,6 @@ fn a_full_device_is_an_error() {
 }
 
 #[test]
-#[cfg(unix)]
 fn closed_standard_output_is_an_error() {
     let place = Place::new();
     let output = in_shell(&place, "exec >&-", "render ball.ray -o -");
@@ -72,7 +71,6 @@ fn closed_standard_output_is_an_error() {
 }
 
 #[test]
-#[cfg(unix)]
 fn closed_standard_error_causes_no_panic() {
     let place = Place::new();
     let (reader, writer) = std::io::pipe().expect("a pipe");
@@ -83,13 +81,11 @@ fn closed_standard_error_causes_no_panic() {
 }
 
 /// Runs the program with files limited to 1 KiB, so that writing more fails as on a full disk.
-#[cfg(unix)]
 fn on_a_full_disk(place: &Place, line: &str) -> Output {
     in_shell(place, "ulimit -f 1", line)
 }
 
 #[test]
-#[cfg(unix)]
 fn a_full_disk_keeps_the_old_picture() {
     let place = Place::new();
     for linked in [false, true] {
@@ -105,7 +101,6 @@ fn a_full_disk_keeps_the_old_picture() {
 }
 
 #[test]
-#[cfg(unix)]
 fn a_terminal_is_refused_unless_forced() {
     use crate::harness::terminal::{Terminal, start};
 

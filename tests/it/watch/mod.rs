@@ -2,7 +2,6 @@
 //! up with its final content.
 
 mod folders;
-#[cfg(unix)]
 mod links;
 
 use std::fs::{self, File, FileTimes};
@@ -43,7 +42,6 @@ enum Step {
     Directory(&'static str),
     RemoveDirectory(&'static str),
     /// Creates a symbolic link: its target, its name.
-    #[cfg(unix)]
     Link(&'static str, &'static str),
 }
 
@@ -143,7 +141,6 @@ fn take(directory: &Path, held: &mut Option<File>, step: Step) {
         Duplicate(from, to) => fs::copy(at(from), at(to)).map(|_| ()),
         Directory(name) => fs::create_dir(at(name)),
         RemoveDirectory(name) => fs::remove_dir_all(at(name)),
-        #[cfg(unix)]
         Step::Link(target, name) => std::os::unix::fs::symlink(target, at(name)),
     };
     done.unwrap_or_else(|error| panic!("{step:?}: {error}"));
