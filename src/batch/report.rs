@@ -1,14 +1,12 @@
 //! Formats diagnostics, each with an excerpt of the text.
 
-use std::fmt::Write;
 use std::io::{self, IsTerminal};
 
-use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use serde_json::{Value, json};
 
 use text::{
-    Diagnostic, Position, Severity, Shown, Span, first_byte, line_end, line_start, mark_len,
-    visible,
+    Diagnostic, Position, Severity, Shown, Span, columns, first_byte, line_end, line_start,
+    mark_len, visible,
 };
 
 /// Maximum number of characters shown before a span, of it, and after it.
@@ -38,49 +36,74 @@ pub(super) fn has_controls() -> bool {
     io::stderr().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
 }
 
+/// The colours of a report, as SGR parameters: bold, and one of the terminal's bright colours.
+const ERROR: &str = "1;91";
+const WARNING: &str = "1;93";
+const HELP: &str = "1;96";
+const MARGINALIA: &str = "1;94";
+const TITLE: &str = "1";
+
+impl Style {
+    /// A text in a colour.
+    fn paint(self, colour: &str, text: &str) -> String {
+        match self {
+            Self::Plain => text.to_owned(),
+            Self::Coloured => format!("\x1b[{colour}m{text}\x1b[0m"),
+        }
+    }
+}
+
 /// Formats the diagnostics of a text, in order, without a trailing line break. The first line of
 /// each contains `NAME:LINE:COLUMN`. Foreign text is escaped by [`visible`].
 pub(super) fn render(name: &str, text: &str, diagnostics: &[Diagnostic], style: Style) -> String {
-    let renderer = match style {
-        Style::Plain => Renderer::plain(),
-        Style::Coloured => Renderer::styled(),
-    };
     let lines: Vec<_> = diagnostics
         .iter()
-        .map(|diagnostic| one(name, text, diagnostic, &renderer))
+        .map(|diagnostic| one(name, text, diagnostic, style))
         .collect();
     lines.join("\n")
 }
 
-fn one(name: &str, text: &str, diagnostic: &Diagnostic, renderer: &Renderer) -> String {
+/// A diagnostic in rustc's layout: what is wrong, the line, the mark with what is expected, the hint.
+fn one(name: &str, text: &str, diagnostic: &Diagnostic, style: Style) -> String {
     let Shown {
         file,
         position: Position { line, column },
         text,
         span,
     } = diagnostic.shown(text);
-    let mut title = String::new();
-    // Writing to a string cannot fail.
-    let _ = write!(
-        title,
-        "{}:{line}:{column}: {}",
-        visible(file.unwrap_or(name)),
+    let (level, colour) = match diagnostic.severity {
+        Severity::Error => ("error", ERROR),
+        Severity::Warning => ("warning", WARNING),
+    };
+    let place = visible(file.unwrap_or(name));
+    let title = format!(
+        ": {place}:{line}:{column}: {}",
         visible(&diagnostic.message)
     );
-    let level = match diagnostic.severity {
-        Severity::Error => Level::ERROR,
-        Severity::Warning => Level::WARNING,
-    };
     let excerpt = Excerpt::of(text, span);
-    let mark = AnnotationKind::Primary.span(excerpt.marked.range());
-    let snippet = Snippet::source(excerpt.line)
-        .line_start(line)
-        .annotation(mark.label(visible(&diagnostic.expected)));
-    let mut group = level.primary_title(title).element(snippet);
+    let before = &excerpt.line[..excerpt.marked.start()];
+    let marks = columns(excerpt.marked.of(&excerpt.line)).max(1);
+    let mark = format!("{} {}", "^".repeat(marks), visible(&diagnostic.expected));
+
+    let number = line.to_string();
+    let margin = " ".repeat(number.len());
+    let side = |text: &str| style.paint(MARGINALIA, text);
+    let empty = side(&format!("{margin} |"));
+    let numbered = side(&format!("{number} |"));
+    let space = if excerpt.line.is_empty() { "" } else { " " };
+    let indent = " ".repeat(columns(before));
+    let mut lines = vec![
+        style.paint(colour, level) + &style.paint(TITLE, &title),
+        empty.clone(),
+        format!("{numbered}{space}{}", excerpt.line),
+        format!("{empty} {indent}{}", style.paint(colour, mark.trim_end())),
+    ];
     if let Some(hint) = &diagnostic.hint {
-        group = group.element(Level::HELP.message(visible(hint)));
+        let equals = side(&format!("{margin} ="));
+        let help = style.paint(HELP, "help");
+        lines.extend([empty, format!("{equals} {help}: {}", visible(hint))]);
     }
-    renderer.render(&[group])
+    lines.join("\n")
 }
 
 /// A diagnostic of a text as an object of JSON, whose `excerpt` is the offending part of the first line;

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-use sha2::Sha256;
+use hmac_sha256::Hash;
 
 /// Bytes read at once.
 const CHUNK: usize = 1 << 18;
@@ -13,7 +13,7 @@ const CHUNK: usize = 1 << 18;
 /// A digest of parts, told apart by their lengths: of each the length as u64 in little-endian
 /// order, then the bytes.
 #[derive(Clone, Default)]
-pub struct Digest(Sha256);
+pub struct Digest(Hash);
 
 impl Digest {
     /// The digest of texts or bytes.
@@ -54,7 +54,6 @@ impl Digest {
 
     /// The digest, 64 hexadecimal digits.
     fn finish(self) -> String {
-        use sha2::Digest as _;
         let mut text = String::new();
         for byte in self.0.finalize() {
             // Writing to a string cannot fail.
@@ -68,7 +67,6 @@ impl Digest {
     }
 
     fn append(&mut self, bytes: &[u8]) {
-        use sha2::Digest as _;
         self.0.update(bytes);
     }
 }

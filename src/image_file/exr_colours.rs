@@ -40,11 +40,13 @@ enum Channels {
 pub(super) fn read_colours(file: &mut dyn Input, room: u64) -> Result<Image, Unreadable> {
     let reader = block::read(BufReader::new(file), false).map_err(|error| unreadable(&error))?;
     let (header, channels) = chosen(reader.headers())?;
-    if matches!(
-        header.compression,
-        Compression::HTJ2K32 | Compression::HTJ2K256
-    ) {
-        return Err(unsupported(NAME, "HTJ2K compression"));
+    match header.compression {
+        Compression::DWAA(_) => return Err(unsupported(NAME, "DWAA compression")),
+        Compression::DWAB(_) => return Err(unsupported(NAME, "DWAB compression")),
+        Compression::HTJ2K32 | Compression::HTJ2K256 => {
+            return Err(unsupported(NAME, "HTJ2K compression"));
+        }
+        _ => {}
     }
     let window = header.shared_attributes.display_window;
     let size = Size {

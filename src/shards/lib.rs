@@ -10,6 +10,7 @@
 //! continue each other.
 
 mod contents;
+mod crc;
 mod header;
 mod merge;
 mod reader;

@@ -31,4 +31,4 @@ pub use percentage::percentage;
 pub use seek::first_byte;
 pub use shell::{shell_path, shell_word, shell_words};
 pub use span::{Position, Span, mark_len};
-pub use visible::visible;
+pub use visible::{columns, visible};

@@ -1,6 +1,7 @@
 //! Words of shell command lines.
 
 use std::borrow::Cow;
+use std::str::Chars;
 
 /// Quotes a path for a shell command line, so that one that begins with `-` is not read as an option.
 pub fn shell_path(path: &str) -> String {
@@ -13,13 +14,71 @@ pub fn shell_path(path: &str) -> String {
 
 /// Quotes a word, which must not contain NUL, for a shell command line.
 pub fn shell_word(word: &str) -> Cow<'_, str> {
-    shlex::try_quote(word).unwrap_or(Cow::Borrowed(word))
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "+-./:@_".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        Cow::Borrowed(word)
+    } else if !word.contains('\'') {
+        Cow::Owned(format!("'{word}'"))
+    } else if !word.contains(['"', '$', '`', '\\', '!']) {
+        Cow::Owned(format!("\"{word}\""))
+    } else {
+        Cow::Owned(format!("'{}'", word.replace('\'', r"'\''")))
+    }
 }
 
-/// Splits a command line into words, with a shell's quotes and backslashes; `None` if a quote is
-/// unmatched.
+/// Splits a command line into words, with a shell's quotes, backslashes and comments (POSIX.1-2024,
+/// Shell Command Language, 2.2 and 2.3); `None` if a quote is unmatched or nothing follows a
+/// backslash. Nothing is expanded.
 pub fn shell_words(line: &str) -> Option<Vec<String>> {
-    shlex::split(line)
+    let mut words = Vec::new();
+    // The word so far, and whether it has begun: `''` is a word.
+    let mut word: Option<String> = None;
+    let mut chars = line.chars();
+    while let Some(c) = chars.next() {
+        match c {
+            ' ' | '\t' | '\n' => words.extend(word.take()),
+            '#' if word.is_none() => {
+                let _ = chars.find(|&c| c == '\n');
+            }
+            _ => {
+                let word = word.get_or_insert_default();
+                match c {
+                    '\'' => until_quote(&mut chars, word)?,
+                    '"' => until_double_quote(&mut chars, word)?,
+                    '\\' => word.extend(chars.next().map(|c| (c != '\n').then_some(c))?),
+                    _ => word.push(c),
+                }
+            }
+        }
+    }
+    words.extend(word);
+    Some(words)
+}
+
+/// Adds what comes before the next `'` to a word.
+fn until_quote(chars: &mut Chars<'_>, word: &mut String) -> Option<()> {
+    loop {
+        match chars.next()? {
+            '\'' => return Some(()),
+            c => word.push(c),
+        }
+    }
+}
+
+/// Adds what comes before the next `"` to a word. There, a backslash is one before certain
+/// characters only.
+fn until_double_quote(chars: &mut Chars<'_>, word: &mut String) -> Option<()> {
+    loop {
+        match chars.next()? {
+            '"' => return Some(()),
+            '\\' => match chars.next()? {
+                '\n' => {}
+                c @ ('$' | '`' | '"' | '\\') => word.push(c),
+                c => word.extend(['\\', c]),
+            },
+            c => word.push(c),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -36,11 +95,34 @@ mod tests {
             ("a;b`c`.ray", "'a;b`c`.ray'"),
             ("~/a.ray", "'~/a.ray'"),
             ("-x.ray", "./-x.ray"),
+            ("it's $1", r"'it'\''s $1'"),
+            ("", "''"),
         ] {
             assert_eq!(shell_path(path), typed);
             let path = if path.starts_with('-') { typed } else { path };
             assert_eq!(shell_words(typed), Some(vec![path.to_owned()]));
         }
-        assert_eq!(shell_words("vi 'a"), None);
+    }
+
+    /// Against `sh -c 'printf "<%s>" LINE'`.
+    #[test]
+    fn a_command_line_is_split_as_by_a_shell() {
+        for (line, words) in [
+            ("", Some(&[][..])),
+            (" vi\t-R \n a ", Some(&["vi", "-R", "a"])),
+            ("vi '' \"\"", Some(&["vi", "", ""])),
+            ("a' b'c\" d\"", Some(&["a bc d"])),
+            (r#"'it'\''s' "\"\$\`\\\a'""#, Some(&["it's", "\"$`\\\\a'"])),
+            (r"a\ b \'", Some(&["a b", "'"])),
+            ("a\\\nb \"c\\\nd\"", Some(&["ab", "cd"])),
+            ("a#b #c 'd\ne", Some(&["a#b", "e"])),
+            ("vi 'a", None),
+            ("vi \"a'", None),
+            ("vi \"a\\", None),
+            ("vi \\", None),
+        ] {
+            let words = words.map(|words| words.iter().map(ToString::to_string).collect());
+            assert_eq!(shell_words(line), words, "{line}");
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use unicode_width::UnicodeWidthChar;
+use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 /// Escapes invisible characters, so that neither a scene nor a file name can control the terminal.
 /// Control characters, line breaks, bidirectional formatting characters and others without a glyph
@@ -25,6 +25,11 @@ pub fn visible(text: &str) -> Cow<'_, str> {
         may_combine = plain && !combines;
     }
     Cow::Owned(shown)
+}
+
+/// The number of columns that a text takes on a terminal.
+pub fn columns(text: &str) -> usize {
+    text.width()
 }
 
 /// Whether a character is visible, on its own or on the character before it.

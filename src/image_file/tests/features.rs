@@ -85,6 +85,8 @@ fn what_an_exr_has_that_cannot_be_read_is_named() {
         exr_of(&channels.collect::<Vec<_>>())
     };
     for (bytes, feature) in [
+        (compressed(8), "DWAA compression"),
+        (compressed(9), "DWAB compression"),
         (compressed(10), "HTJ2K compression"),
         (compressed(11), "HTJ2K compression"),
         (compressed(99), "unknown compression"),
