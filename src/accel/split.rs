@@ -307,7 +307,7 @@ fn partition<G: Sync>(
             }
         }
         // Bins and sides agree, see `Grid::is_before`.
-        debug_assert!(front.len() == 0 && back.len() == 0);
+        assert!(front.len() == 0 && back.len() == 0);
         Ok(())
     })?;
     let moved = spare.par_chunks(CHUNK);

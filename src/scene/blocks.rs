@@ -21,7 +21,7 @@ impl<T> Blocks<T> {
     /// Creates a list from blocks, none of which is empty; behind those that are not full, numbers
     /// are left out.
     pub fn of_blocks(blocks: Vec<Arc<[T]>>) -> Self {
-        debug_assert!(
+        assert!(
             blocks
                 .iter()
                 .all(|block| (1..=BLOCK).contains(&block.len())),

@@ -83,7 +83,7 @@ impl Trace<'_> {
             None => self.miss(&state),
             Some(_) => self.shade(&state)?,
         }
-        debug_assert!(
+        assert!(
             {
                 let last = self.recorder.rays.last();
                 let added = before + last.map_or(Rgb::ZERO, |ray| ray.contribution);

@@ -56,10 +56,10 @@ pub(crate) fn incoming_each<S: Simd>(
     let mut sources = Vector::repeat(DVec3::ZERO);
     for lane in each_bit(lanes) {
         let light = &lights[indices[lane]];
-        debug_assert!(matches!(light.emitter, Emitter::Point { .. }));
-        if let Emitter::Point { position, .. } = light.emitter {
-            sources.set(lane, position);
-        }
+        let Emitter::Point { position, .. } = light.emitter else {
+            unreachable!("only point lights differ from lane to lane");
+        };
+        sources.set(lane, position);
     }
     Some(Incoming::from_sources(sources.load(simd), points))
 }

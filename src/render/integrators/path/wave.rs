@@ -73,7 +73,7 @@ pub(crate) fn by_paths(
     seen: &mut Vec<SampleResult>,
 ) {
     let index = |sample: &Sample| sample.sampler.index();
-    debug_assert!(
+    assert!(
         samples
             .windows(2)
             .all(|pair| index(&pair[0]) == index(&pair[1]))
