@@ -1,19 +1,15 @@
 //! Input from a terminal.
 
-#[cfg(unix)]
 use std::time::{Duration, Instant};
 
-#[cfg(unix)]
 use halflight::ui::terminal::{Decoder, Event};
 
 /// The bytes that end a control string or may begin what ends it.
-#[cfg(unix)]
 const ENDS: [u8; 5] = [0x07, 0x18, 0x1a, 0x1b, 0x9c];
 
 /// Decodes the input after its first byte at once and in pieces whose length that byte gives: the
 /// events must be equal. With pauses between the pieces they may differ. As the content of a control
 /// string, the input must give no event at all.
-#[cfg(unix)]
 pub fn keys(input: &[u8]) {
     let Some((&seed, bytes)) = input.split_first() else {
         return;
@@ -37,12 +33,7 @@ pub fn keys(input: &[u8]) {
     );
 }
 
-/// Other systems have no decoder of bytes.
-#[cfg(not(unix))]
-pub fn keys(_: &[u8]) {}
-
 /// Decodes pieces with a pause between them.
-#[cfg(unix)]
 fn decode<'b>(pieces: impl IntoIterator<Item = &'b [u8]>, pause: Duration) -> Vec<Event> {
     let mut decoder = Decoder::default();
     let mut events = Vec::new();

@@ -98,11 +98,11 @@ impl Folder {
     }
 }
 
-/// The flags for opening folders. `O_PATH`, where available, needs no permission to list them.
+/// The flags for opening folders. On Linux, `O_PATH` needs no permission to list them.
 fn flags_of_folders() -> OFlags {
-    #[cfg(any(target_os = "linux", target_os = "android"))]
+    #[cfg(target_os = "linux")]
     let access = OFlags::PATH;
-    #[cfg(not(any(target_os = "linux", target_os = "android")))]
+    #[cfg(not(target_os = "linux"))]
     let access = OFlags::RDONLY;
     access | OFlags::DIRECTORY | OFlags::NOFOLLOW | OFlags::CLOEXEC
 }

@@ -9,7 +9,8 @@ use text::{
     mark_len, visible,
 };
 
-/// Maximum number of characters shown before a span, of it, and after it.
+/// Maximum number of characters shown before a span, of it, and after it. Escapes and tabs are wider, so a
+/// line may still be longer than the terminal is wide.
 const MARGIN: usize = 60;
 
 /// Whether a report is coloured.
@@ -29,21 +30,7 @@ impl Style {
             Self::Plain
         }
     }
-}
 
-/// Whether standard error is a terminal that knows control sequences.
-pub(super) fn has_controls() -> bool {
-    io::stderr().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
-}
-
-/// The colours of a report, as SGR parameters: bold, and one of the terminal's bright colours.
-const ERROR: &str = "1;91";
-const WARNING: &str = "1;93";
-const HELP: &str = "1;96";
-const MARGINALIA: &str = "1;94";
-const TITLE: &str = "1";
-
-impl Style {
     /// A text in a colour.
     fn paint(self, colour: &str, text: &str) -> String {
         match self {
@@ -51,6 +38,17 @@ impl Style {
             Self::Coloured => format!("\x1b[{colour}m{text}\x1b[0m"),
         }
     }
+}
+
+/// The colours of a report, as SGR parameters: bold, most with a colour of the terminal.
+const ERROR: &str = "1;91";
+const WARNING: &str = "1;33";
+const MARGINALIA: &str = "1;94";
+const TITLE: &str = "1";
+
+/// Whether standard error is a terminal that knows control sequences.
+pub(super) fn has_controls() -> bool {
+    io::stderr().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
 }
 
 /// Formats the diagnostics of a text, in order, without a trailing line break. The first line of
@@ -100,7 +98,7 @@ fn one(name: &str, text: &str, diagnostic: &Diagnostic, style: Style) -> String 
     ];
     if let Some(hint) = &diagnostic.hint {
         let equals = side(&format!("{margin} ="));
-        let help = style.paint(HELP, "help");
+        let help = style.paint(TITLE, "help");
         lines.extend([empty, format!("{equals} {help}: {}", visible(hint))]);
     }
     lines.join("\n")
@@ -231,6 +229,20 @@ error: a.ray:2:14: object 1 (sphere) radius: must be greater than 0
   |              ^^ a number greater than 0
   |
   = help: write 1"
+        );
+    }
+
+    #[test]
+    fn colours_tell_what_is_wrong_from_the_text() {
+        let odd = Diagnostic::warning(Span::new(0, 1), "odd", "a number").with_hint("write 1");
+        assert_eq!(
+            render("a.ray", "x", &[odd], Style::Coloured),
+            "\x1b[1;33mwarning\x1b[0m\x1b[1m: a.ray:1:1: odd\x1b[0m
+\x1b[1;94m  |\x1b[0m
+\x1b[1;94m1 |\x1b[0m x
+\x1b[1;94m  |\x1b[0m \x1b[1;33m^ a number\x1b[0m
+\x1b[1;94m  |\x1b[0m
+\x1b[1;94m  =\x1b[0m \x1b[1mhelp\x1b[0m: write 1"
         );
     }
 

@@ -16,16 +16,12 @@ pub(super) fn take_after(path: &Path, metadata: &Metadata, twin: &File) -> io::R
         let group = Gid::from_raw(metadata.gid());
         call("fchown", || Ok(fchown(twin, Some(owner), Some(group))?))?;
     }
-    #[cfg(any(target_os = "linux", target_vendor = "apple"))]
     copy_attributes(path, twin)?;
-    #[cfg(not(any(target_os = "linux", target_vendor = "apple")))]
-    let _ = path;
     // After the owner: changing it clears bits of the mode.
     call("chmod", || twin.set_permissions(metadata.permissions()))
 }
 
 /// Copies extended attributes, which include access control lists.
-#[cfg(any(target_os = "linux", target_vendor = "apple"))]
 fn copy_attributes(path: &Path, twin: &File) -> io::Result<()> {
     use rustix::fs::{XattrFlags, fsetxattr, getxattr, getxattr_query, listxattr, listxattr_query};
 

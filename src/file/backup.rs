@@ -141,7 +141,7 @@ fn copies(folder: &Path, path: &Path) -> impl Iterator<Item = PathBuf> + use<> {
             })
         })
         .map(|entry| entry.path())
-        .filter(|copy| is_own(copy) && !is_in_use(copy))
+        .filter(|copy| super::is_own(copy) && !is_in_use(copy))
 }
 
 /// Whether a copy was finished before a file was created. False if the times are not known.
@@ -159,14 +159,6 @@ fn is_needless(copy: &Path, content: &[u8]) -> bool {
 
 fn is_in_use(copy: &Path) -> bool {
     super::open(copy).is_ok_and(|file| lock(&file) == Lock::Busy)
-}
-
-/// Whether the copy belongs to this user.
-fn is_own(copy: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    let user = rustix::process::geteuid().as_raw();
-    copy.symlink_metadata()
-        .is_ok_and(|metadata| metadata.uid() == user)
 }
 
 fn name_of(path: &Path, inode: u64) -> String {
@@ -190,7 +182,7 @@ fn shown_name(path: &Path) -> String {
     name[..end.unwrap_or(0)].to_owned()
 }
 
-/// The inode, which is the same for all hard links; 0 where there are none.
+/// The inode, which is the same for all hard links.
 fn inode(metadata: &Metadata) -> u64 {
     use std::os::unix::fs::MetadataExt;
     metadata.ino()

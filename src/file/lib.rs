@@ -351,10 +351,9 @@ pub fn is_same(one: &Path, other: &Path) -> bool {
 /// there is nothing, or nothing can be there.
 pub fn is_own(path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
-    let Ok(found) = path.symlink_metadata() else {
-        return false;
-    };
-    found.uid() == rustix::process::geteuid().as_raw()
+    let user = rustix::process::geteuid().as_raw();
+    path.symlink_metadata()
+        .is_ok_and(|found| found.uid() == user)
 }
 
 /// Opens a regular file for reading. Never blocks, as opening a pipe without a writer would.

@@ -13,8 +13,7 @@ use super::lock::{Lock, lock};
 use super::stream;
 use super::target::{Target, directory_of, not_a_file, open};
 use super::temporary::{Access, Temporary, is_refusal, sync_directory};
-use super::version::FileId;
-use super::version::Version;
+use super::version::{FileId, Version};
 
 /// How long to wait for a file that another program has locked, and the interval between attempts.
 const LOCK_PATIENCE: Duration = Duration::from_secs(1);

@@ -116,12 +116,12 @@ impl Folder {
 
     /// Whether a name in the folder refers to this open file.
     pub fn has(&self, name: &str, file: &File) -> io::Result<bool> {
-        self.held.has(&self.path, name, file)
+        self.held.has(name, file)
     }
 
     /// Creates a file for writing. Fails if the name exists, even as a link.
     pub fn create(&self, name: &str) -> io::Result<File> {
-        let made = self.held.create(&self.path, name);
+        let made = self.held.create(name);
         made.map_err(|error| at(&self.path, &error))
     }
 
@@ -132,7 +132,7 @@ impl Folder {
             let reason = format!("{} {reason}", place.display());
             io::Error::new(io::ErrorKind::InvalidInput, reason)
         };
-        let file = match self.held.open(&self.path, name) {
+        let file = match self.held.open(name) {
             Ok(file) => file,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             // For example a link, which is not followed.
@@ -191,12 +191,12 @@ impl Folder {
 
     /// Renames a file, replacing any file of the new name.
     pub fn rename(&self, from: &str, to: &str) -> io::Result<()> {
-        self.held.rename(&self.path, from, to)
+        self.held.rename(from, to)
     }
 
     /// Removes a file, if it exists.
     pub fn remove(&self, name: &str) -> io::Result<()> {
-        match self.held.remove(&self.path, name) {
+        match self.held.remove(name) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
             _ => Ok(()),
         }

@@ -3,8 +3,11 @@ mod kills;
 mod limits;
 mod turns;
 
+use rustix::fs::{CWD, FileType as NodeType, Mode, mknodat};
 use std::fs;
+use std::fs::Permissions;
 use std::io::Write;
+use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 
 use tempfile::TempDir;
 
@@ -168,268 +171,259 @@ fn a_target_that_cannot_be_written_is_detected_beforehand() {
     assert_eq!(names(directory.path()), ["s"]);
 }
 
-mod attributes {
-    use std::fs::Permissions;
-    use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
-
-    use rustix::fs::{CWD, FileType as NodeType, Mode, mknodat};
-
-    use super::*;
-
-    #[test]
-    fn a_pipe_or_a_device_is_refused_at_once() {
-        let directory = directory();
-        let pipe = directory.path().join("pipe");
-        mknodat(CWD, &pipe, NodeType::Fifo, Mode::RWXU, 0).expect("a pipe");
-        for (path, kind) in [
-            (pipe.as_path(), "a pipe"),
-            (Path::new("/dev/zero"), "a device"),
-        ] {
-            let message = read_text(path).expect_err("not a file").to_string();
-            assert!(
-                message.ends_with(&format!(": is {kind}, not a file")),
-                "{message}"
-            );
-        }
-    }
-
-    #[test]
-    fn a_file_that_is_too_long_is_refused_unread() {
-        let directory = directory();
-        let path = directory.path().join("s");
-        let file = File::create(&path).expect("created");
-        // A hole, which takes no space.
-        file.set_len(MAX_BYTES + 1)
-            .expect("a file system with holes");
-        assert!(matches!(read_text(&path), Err(ReadError::TooLong { .. })));
-    }
-
-    #[test]
-    fn links_are_followed_and_stay_links() {
-        let directory = directory();
-        let at = |name: &str| directory.path().join(name);
-        fs::create_dir(at("real")).expect("created");
-        symlink("../middle", at("real/link")).expect("linked");
-        symlink("real/end", at("middle")).expect("linked");
-        for text in ["made at the end of dangling links", "replaced there"] {
-            replace_with(&at("real/link"), text).expect("replaced");
-            assert_eq!(content(&at("real/end")), text);
-            assert_eq!(names(&at("real")), ["end", "link"]);
-            assert!(at("real/link").is_symlink() && at("middle").is_symlink());
-        }
-        symlink("loop", at("loop")).expect("linked");
-        assert!(replace_with(&at("loop"), "x").is_err());
-        assert!(at("loop").is_symlink());
-    }
-
-    #[test]
-    fn the_mode_is_kept() {
-        let directory = directory();
-        let path = directory.path().join("s");
-        fs::write(&path, "old").expect("written");
-        for mode in [0o600, 0o644, 0o751, 0o666] {
-            fs::set_permissions(&path, Permissions::from_mode(mode)).expect("changed");
-            replace_with(&path, "new").expect("replaced");
-            let kept = fs::metadata(&path).expect("there").permissions().mode();
-            assert_eq!(kept & 0o7777, mode, "{mode:o}");
-        }
-    }
-
-    #[test]
-    #[cfg(target_os = "linux")]
-    fn extended_attributes_are_kept() {
-        use rustix::fs::{XattrFlags, getxattr, setxattr};
-        let directory = directory();
-        let path = directory.path().join("s");
-        fs::write(&path, "old").expect("written");
-        if setxattr(&path, "user.note", b"mine", XattrFlags::empty()).is_err() {
-            // A file system without attributes has none to lose.
-            return;
-        }
-        replace_with(&path, "new").expect("replaced");
-        let mut value = [0; 4];
-        let length = getxattr(&path, "user.note", &mut value).expect("kept");
-        assert_eq!(&value[..length], b"mine");
-    }
-
-    #[test]
-    fn a_new_file_has_the_usual_mode() {
-        let directory = directory();
-        let mode = |name: &str| {
-            let metadata = fs::metadata(directory.path().join(name)).expect("there");
-            metadata.permissions().mode()
-        };
-        fs::write(directory.path().join("theirs"), "").expect("written");
-        replace_with(&directory.path().join("ours"), "").expect("replaced");
-        assert_eq!(mode("ours"), mode("theirs"));
-    }
-
-    /// Something another program does to a file after it was written.
-    type Change = fn(&Path);
-
-    #[test]
-    fn changes_by_others_change_the_version_of_a_file() {
-        let rewrite = |path: &Path, content: &str| {
-            let modified = fs::metadata(path).and_then(|found| found.modified());
-            fs::write(path, content).expect("written");
-            let file = File::options().write(true).open(path);
-            let dated = file.and_then(|file| file.set_modified(modified.expect("a time")));
-            dated.expect("ours");
-        };
-        let cases: &[(&str, Change, bool)] = &[
-            ("nothing", |_| {}, true),
-            ("reading", |path| drop(content(path)), true),
-            (
-                "writing",
-                |path| fs::write(path, "xyz").expect("written"),
-                false,
-            ),
-            (
-                "removing",
-                |path| fs::remove_file(path).expect("there"),
-                false,
-            ),
-            (
-                "replacing",
-                |path| {
-                    let other = path.with_extension("new");
-                    fs::write(&other, "new").expect("written");
-                    fs::rename(&other, path).expect("renamed");
-                },
-                false,
-            ),
-        ];
-        for linked in [false, true] {
-            for (name, change, is_same) in cases {
-                let directory = directory();
-                let path = directory.path().join("s");
-                if linked {
-                    fs::write(&path, "old").expect("written");
-                    fs::hard_link(&path, directory.path().join("t")).expect("linked");
-                }
-                let written = deliver(&path, &mut |out| out.write_all(b"new"), &|| {
-                    io::Result::Ok(())
-                });
-                let version = written.expect("written").expect("a file");
-                change(&path);
-                let found = Version::of(&path).ok();
-                assert_eq!(found == Some(version), *is_same, "{name}, {linked}");
-            }
-        }
-        // Setting the modification time back does not hide a change.
-        let directory = directory();
-        let path = directory.path().join("s");
-        fs::write(&path, "one").expect("written");
-        let version = Version::of(&path).expect("there");
-        while Version::of(&path).is_ok_and(|found| found == version) {
-            rewrite(&path, "two");
-        }
-    }
-
-    #[test]
-    fn hard_links_stay_together() {
-        let directory = directory();
-        let (one, two) = (directory.path().join("one"), directory.path().join("two"));
-        fs::write(&one, "old content, longer than the new").expect("written");
-        fs::hard_link(&one, &two).expect("linked");
-        let inode = fs::metadata(&one).expect("there").ino();
-        for text in ["new", "new, longer again", ""] {
-            replace_with(&two, text).expect("replaced");
-            assert_eq!(content(&one), text);
-            assert_eq!(fs::metadata(&two).expect("there").ino(), inode);
-            assert_eq!(names(directory.path()), ["one", "two"]);
-        }
-        let failed = replace_as(&one, &mut |out| {
-            out.write_all(b"half")?;
-            Err(io::ErrorKind::StorageFull.into())
-        });
-        assert!(failed.is_err());
-        assert_eq!(
-            (content(&one), content(&two)),
-            (String::new(), String::new())
+#[test]
+fn a_pipe_or_a_device_is_refused_at_once() {
+    let directory = directory();
+    let pipe = directory.path().join("pipe");
+    mknodat(CWD, &pipe, NodeType::Fifo, Mode::RWXU, 0).expect("a pipe");
+    for (path, kind) in [
+        (pipe.as_path(), "a pipe"),
+        (Path::new("/dev/zero"), "a device"),
+    ] {
+        let message = read_text(path).expect_err("not a file").to_string();
+        assert!(
+            message.ends_with(&format!(": is {kind}, not a file")),
+            "{message}"
         );
     }
+}
 
-    fn pipe_in(directory: &TempDir) -> PathBuf {
-        let pipe = directory.path().join("pipe");
-        mknodat(CWD, &pipe, NodeType::Fifo, Mode::RWXU, 0).expect("a pipe");
-        pipe
+#[test]
+fn a_file_that_is_too_long_is_refused_unread() {
+    let directory = directory();
+    let path = directory.path().join("s");
+    let file = File::create(&path).expect("created");
+    // A hole, which takes no space.
+    file.set_len(MAX_BYTES + 1)
+        .expect("a file system with holes");
+    assert!(matches!(read_text(&path), Err(ReadError::TooLong { .. })));
+}
+
+#[test]
+fn links_are_followed_and_stay_links() {
+    let directory = directory();
+    let at = |name: &str| directory.path().join(name);
+    fs::create_dir(at("real")).expect("created");
+    symlink("../middle", at("real/link")).expect("linked");
+    symlink("real/end", at("middle")).expect("linked");
+    for text in ["made at the end of dangling links", "replaced there"] {
+        replace_with(&at("real/link"), text).expect("replaced");
+        assert_eq!(content(&at("real/end")), text);
+        assert_eq!(names(&at("real")), ["end", "link"]);
+        assert!(at("real/link").is_symlink() && at("middle").is_symlink());
     }
+    symlink("loop", at("loop")).expect("linked");
+    assert!(replace_with(&at("loop"), "x").is_err());
+    assert!(at("loop").is_symlink());
+}
 
-    fn deliver_to(path: &Path, content: &str) -> io::Result<()> {
-        deliver(path, &mut |out| out.write_all(content.as_bytes()), &|| {
-            Ok(())
-        })
-        .map(drop)
+#[test]
+fn the_mode_is_kept() {
+    let directory = directory();
+    let path = directory.path().join("s");
+    fs::write(&path, "old").expect("written");
+    for mode in [0o600, 0o644, 0o751, 0o666] {
+        fs::set_permissions(&path, Permissions::from_mode(mode)).expect("changed");
+        replace_with(&path, "new").expect("replaced");
+        let kept = fs::metadata(&path).expect("there").permissions().mode();
+        assert_eq!(kept & 0o7777, mode, "{mode:o}");
     }
+}
 
-    #[test]
-    fn a_pipe_is_written_to_and_not_replaced() {
-        let directory = directory();
-        let pipe = pipe_in(&directory);
-        let reader = std::thread::spawn({
-            let pipe = pipe.clone();
-            move || fs::read_to_string(pipe)
-        });
-        // More than a pipe buffers, so the writer waits for the reader.
-        let content = "through".repeat(100_000);
-        deliver_to(&pipe, &content).expect("written");
-        let read = reader.join().expect("no panic").expect("read");
-        assert!(read == content);
-        assert_eq!(names(directory.path()), ["pipe"]);
-        deliver_to(Path::new("/dev/null"), &content).expect("written");
+#[test]
+#[cfg(target_os = "linux")]
+fn extended_attributes_are_kept() {
+    use rustix::fs::{XattrFlags, getxattr, setxattr};
+    let directory = directory();
+    let path = directory.path().join("s");
+    fs::write(&path, "old").expect("written");
+    if setxattr(&path, "user.note", b"mine", XattrFlags::empty()).is_err() {
+        // A file system without attributes has none to lose.
+        return;
     }
+    replace_with(&path, "new").expect("replaced");
+    let mut value = [0; 4];
+    let length = getxattr(&path, "user.note", &mut value).expect("kept");
+    assert_eq!(&value[..length], b"mine");
+}
 
-    #[test]
-    fn a_pipe_without_a_reader_is_an_error() {
-        let directory = directory();
-        let error = deliver_to(&pipe_in(&directory), "x").expect_err("nobody reads it");
-        assert_eq!(error.to_string(), "no process is reading this pipe");
-    }
+#[test]
+fn a_new_file_has_the_usual_mode() {
+    let directory = directory();
+    let mode = |name: &str| {
+        let metadata = fs::metadata(directory.path().join(name)).expect("there");
+        metadata.permissions().mode()
+    };
+    fs::write(directory.path().join("theirs"), "").expect("written");
+    replace_with(&directory.path().join("ours"), "").expect("replaced");
+    assert_eq!(mode("ours"), mode("theirs"));
+}
 
-    #[test]
-    fn only_files_are_replaced() {
-        let directory = directory();
-        let pipe = pipe_in(&directory);
-        let socket = directory.path().join("socket");
-        let _listener = std::os::unix::net::UnixListener::bind(&socket).expect("a socket");
-        for (path, kind) in [
-            (pipe.as_path(), "a pipe"),
-            (socket.as_path(), "a socket"),
-            (Path::new("/dev/null"), "a device"),
-        ] {
-            let error = replace_with(path, "x").expect_err("not a file");
-            assert_eq!(error.to_string(), format!("is {kind}, not a file"));
+/// Something another program does to a file after it was written.
+type Change = fn(&Path);
+
+#[test]
+fn changes_by_others_change_the_version_of_a_file() {
+    let rewrite = |path: &Path, content: &str| {
+        let modified = fs::metadata(path).and_then(|found| found.modified());
+        fs::write(path, content).expect("written");
+        let file = File::options().write(true).open(path);
+        let dated = file.and_then(|file| file.set_modified(modified.expect("a time")));
+        dated.expect("ours");
+    };
+    let cases: &[(&str, Change, bool)] = &[
+        ("nothing", |_| {}, true),
+        ("reading", |path| drop(content(path)), true),
+        (
+            "writing",
+            |path| fs::write(path, "xyz").expect("written"),
+            false,
+        ),
+        (
+            "removing",
+            |path| fs::remove_file(path).expect("there"),
+            false,
+        ),
+        (
+            "replacing",
+            |path| {
+                let other = path.with_extension("new");
+                fs::write(&other, "new").expect("written");
+                fs::rename(&other, path).expect("renamed");
+            },
+            false,
+        ),
+    ];
+    for linked in [false, true] {
+        for (name, change, is_same) in cases {
+            let directory = directory();
+            let path = directory.path().join("s");
+            if linked {
+                fs::write(&path, "old").expect("written");
+                fs::hard_link(&path, directory.path().join("t")).expect("linked");
+            }
+            let written = deliver(&path, &mut |out| out.write_all(b"new"), &|| {
+                io::Result::Ok(())
+            });
+            let version = written.expect("written").expect("a file");
+            change(&path);
+            let found = Version::of(&path).ok();
+            assert_eq!(found == Some(version), *is_same, "{name}, {linked}");
         }
-        assert_eq!(names(directory.path()), ["pipe", "socket"]);
     }
+    // Setting the modification time back does not hide a change.
+    let directory = directory();
+    let path = directory.path().join("s");
+    fs::write(&path, "one").expect("written");
+    let version = Version::of(&path).expect("there");
+    while Version::of(&path).is_ok_and(|found| found == version) {
+        rewrite(&path, "two");
+    }
+}
 
-    #[test]
-    fn a_file_created_meanwhile_is_only_replaced_with_permission() {
-        let directory = directory();
-        let path = directory.path().join("s");
-        let calls = std::cell::Cell::new(0);
-        let replace_after = |allowed: usize| {
-            replace(&path, &mut |out| out.write_all(b"ours"), &|| {
-                // Another program writes just before the name is taken.
-                fs::write(&path, "theirs")?;
-                calls.set(calls.get() + 1);
-                if calls.get() <= allowed {
-                    Ok(())
-                } else {
-                    Err(io::Error::other("exists"))
-                }
-            })
-        };
-        let refused = replace_after(1).expect_err("it exists by then");
-        assert_eq!(refused.to_string(), "exists");
-        assert_eq!(content(&path), "theirs");
-        fs::remove_file(&path).expect("removed");
-        calls.set(0);
-        replace_after(2).expect("allowed");
-        assert_eq!((calls.get(), content(&path).as_str()), (2, "ours"));
-        assert_eq!(names(directory.path()), ["s"]);
+#[test]
+fn hard_links_stay_together() {
+    let directory = directory();
+    let (one, two) = (directory.path().join("one"), directory.path().join("two"));
+    fs::write(&one, "old content, longer than the new").expect("written");
+    fs::hard_link(&one, &two).expect("linked");
+    let inode = fs::metadata(&one).expect("there").ino();
+    for text in ["new", "new, longer again", ""] {
+        replace_with(&two, text).expect("replaced");
+        assert_eq!(content(&one), text);
+        assert_eq!(fs::metadata(&two).expect("there").ino(), inode);
+        assert_eq!(names(directory.path()), ["one", "two"]);
     }
+    let failed = replace_as(&one, &mut |out| {
+        out.write_all(b"half")?;
+        Err(io::ErrorKind::StorageFull.into())
+    });
+    assert!(failed.is_err());
+    assert_eq!(
+        (content(&one), content(&two)),
+        (String::new(), String::new())
+    );
+}
+
+fn pipe_in(directory: &TempDir) -> PathBuf {
+    let pipe = directory.path().join("pipe");
+    mknodat(CWD, &pipe, NodeType::Fifo, Mode::RWXU, 0).expect("a pipe");
+    pipe
+}
+
+fn deliver_to(path: &Path, content: &str) -> io::Result<()> {
+    deliver(path, &mut |out| out.write_all(content.as_bytes()), &|| {
+        Ok(())
+    })
+    .map(drop)
+}
+
+#[test]
+fn a_pipe_is_written_to_and_not_replaced() {
+    let directory = directory();
+    let pipe = pipe_in(&directory);
+    let reader = std::thread::spawn({
+        let pipe = pipe.clone();
+        move || fs::read_to_string(pipe)
+    });
+    // More than a pipe buffers, so the writer waits for the reader.
+    let content = "through".repeat(100_000);
+    deliver_to(&pipe, &content).expect("written");
+    let read = reader.join().expect("no panic").expect("read");
+    assert!(read == content);
+    assert_eq!(names(directory.path()), ["pipe"]);
+    deliver_to(Path::new("/dev/null"), &content).expect("written");
+}
+
+#[test]
+fn a_pipe_without_a_reader_is_an_error() {
+    let directory = directory();
+    let error = deliver_to(&pipe_in(&directory), "x").expect_err("nobody reads it");
+    assert_eq!(error.to_string(), "no process is reading this pipe");
+}
+
+#[test]
+fn only_files_are_replaced() {
+    let directory = directory();
+    let pipe = pipe_in(&directory);
+    let socket = directory.path().join("socket");
+    let _listener = std::os::unix::net::UnixListener::bind(&socket).expect("a socket");
+    for (path, kind) in [
+        (pipe.as_path(), "a pipe"),
+        (socket.as_path(), "a socket"),
+        (Path::new("/dev/null"), "a device"),
+    ] {
+        let error = replace_with(path, "x").expect_err("not a file");
+        assert_eq!(error.to_string(), format!("is {kind}, not a file"));
+    }
+    assert_eq!(names(directory.path()), ["pipe", "socket"]);
+}
+
+#[test]
+fn a_file_created_meanwhile_is_only_replaced_with_permission() {
+    let directory = directory();
+    let path = directory.path().join("s");
+    let calls = std::cell::Cell::new(0);
+    let replace_after = |allowed: usize| {
+        replace(&path, &mut |out| out.write_all(b"ours"), &|| {
+            // Another program writes just before the name is taken.
+            fs::write(&path, "theirs")?;
+            calls.set(calls.get() + 1);
+            if calls.get() <= allowed {
+                Ok(())
+            } else {
+                Err(io::Error::other("exists"))
+            }
+        })
+    };
+    let refused = replace_after(1).expect_err("it exists by then");
+    assert_eq!(refused.to_string(), "exists");
+    assert_eq!(content(&path), "theirs");
+    fs::remove_file(&path).expect("removed");
+    calls.set(0);
+    replace_after(2).expect("allowed");
+    assert_eq!((calls.get(), content(&path).as_str()), (2, "ours"));
+    assert_eq!(names(directory.path()), ["s"]);
 }
 
 #[test]

@@ -1,29 +1,24 @@
 //! Detects changes of a file without reading it.
 
-use std::fs::File;
-use std::fs::{self, Metadata};
+use std::fs::{self, File, Metadata};
 use std::io;
+use std::os::unix::fs::MetadataExt;
 use std::path::Path;
 use std::time::SystemTime;
 
-/// The identity of a file or folder, independent of its names and content.
+/// The identity of a file or folder, independent of its names and content: its device and inode.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FileId(
-    /// The device and the inode.
-    (u64, u64),
-);
+pub struct FileId((u64, u64));
 
 impl FileId {
     /// The identity of what a path refers to, following links; `None` if it does not exist.
     pub fn of(path: &Path) -> Option<Self> {
-        use std::os::unix::fs::MetadataExt;
         let metadata = fs::metadata(path).ok()?;
         Some(Self((metadata.dev(), metadata.ino())))
     }
 
     /// The identity of an open file.
     pub(super) fn of_file(file: &File) -> Option<Self> {
-        use std::os::unix::fs::MetadataExt;
         let metadata = file.metadata().ok()?;
         Some(Self((metadata.dev(), metadata.ino())))
     }
@@ -55,7 +50,6 @@ impl Version {
     }
 
     pub(super) fn of_metadata(metadata: &Metadata) -> Self {
-        use std::os::unix::fs::MetadataExt;
         Self {
             length: metadata.len(),
             modified: metadata.modified().ok(),

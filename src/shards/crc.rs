@@ -1,6 +1,6 @@
 //! CRC-32, as of gzip and PNG (ISO-HDLC: polynomial 04C11DB7, bits reflected).
 
-/// The checksum of `bytes` after others whose checksum is `before`, or after none for 0.
+/// The checksum of bytes that follow others, given the checksum of those; 0 if there are none.
 pub(super) fn crc32(before: u32, bytes: &[u8]) -> u32 {
     let (words, rest) = bytes.as_chunks::<8>();
     let by_words = words.iter().fold(!before, |crc, word| {
@@ -16,7 +16,7 @@ pub(super) fn crc32(before: u32, bytes: &[u8]) -> u32 {
     })
 }
 
-/// For every byte what it contributes to the checksum, followed by as many zeros as the table's index
+/// What each byte contributes to the checksum if as many zero bytes follow as the table's index says
 /// (slicing by eight: Kounavis and Berry, "Novel Table Lookup-Based Algorithms for High-Performance
 /// CRC Generation", IEEE Transactions on Computers 57(11), 2008).
 static TABLES: [[u32; 256]; 8] = {
@@ -43,7 +43,7 @@ static TABLES: [[u32; 256]; 8] = {
 mod tests {
     use super::crc32;
 
-    /// The check value of the catalogue of parametrised CRC algorithms, and of texts by `gzip`.
+    /// The check value in the catalogue of parametrised CRC algorithms; of the other texts, as by `gzip`.
     #[test]
     fn checksums_are_those_of_gzip() {
         for (text, crc) in [

@@ -17,10 +17,11 @@ pub fn shell_word(word: &str) -> Cow<'_, str> {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "+-./:@_".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {
         Cow::Borrowed(word)
-    } else if !word.contains('\'') {
+    } else if !word.contains(['\'', '\\']) {
         Cow::Owned(format!("'{word}'"))
-    } else if !word.contains(['"', '$', '`', '\\', '!']) {
-        Cow::Owned(format!("\"{word}\""))
+    } else if !word.contains(['"', '$', '`', '!']) {
+        // In single quotes fish reads a backslash as the beginning of an escape.
+        Cow::Owned(format!("\"{}\"", word.replace('\\', r"\\")))
     } else {
         Cow::Owned(format!("'{}'", word.replace('\'', r"'\''")))
     }
@@ -40,12 +41,15 @@ pub fn shell_words(line: &str) -> Option<Vec<String>> {
             '#' if word.is_none() => {
                 let _ = chars.find(|&c| c == '\n');
             }
+            '\\' if chars.as_str().starts_with('\n') => {
+                let _ = chars.next();
+            }
             _ => {
                 let word = word.get_or_insert_default();
                 match c {
                     '\'' => until_quote(&mut chars, word)?,
                     '"' => until_double_quote(&mut chars, word)?,
-                    '\\' => word.extend(chars.next().map(|c| (c != '\n').then_some(c))?),
+                    '\\' => word.push(chars.next()?),
                     _ => word.push(c),
                 }
             }
@@ -65,8 +69,8 @@ fn until_quote(chars: &mut Chars<'_>, word: &mut String) -> Option<()> {
     }
 }
 
-/// Adds what comes before the next `"` to a word. There, a backslash is one before certain
-/// characters only.
+/// Adds what comes before the next `"` to a word. There, a backslash escapes only some characters,
+/// and stands for itself before others.
 fn until_double_quote(chars: &mut Chars<'_>, word: &mut String) -> Option<()> {
     loop {
         match chars.next()? {
@@ -96,6 +100,7 @@ mod tests {
             ("~/a.ray", "'~/a.ray'"),
             ("-x.ray", "./-x.ray"),
             ("it's $1", r"'it'\''s $1'"),
+            (r"a\b.ray", r#""a\\b.ray""#),
             ("", "''"),
         ] {
             assert_eq!(shell_path(path), typed);
@@ -116,6 +121,8 @@ mod tests {
             (r"a\ b \'", Some(&["a b", "'"])),
             ("a\\\nb \"c\\\nd\"", Some(&["ab", "cd"])),
             ("a#b #c 'd\ne", Some(&["a#b", "e"])),
+            ("vi \\\n -R", Some(&["vi", "-R"])),
+            ("a \\\n#b", Some(&["a"])),
             ("vi 'a", None),
             ("vi \"a'", None),
             ("vi \"a\\", None),

@@ -41,17 +41,15 @@ impl Case {
 
     /// One case of each kind.
     pub(super) fn all() -> Vec<Self> {
-        let mut all = vec![
+        vec![
             Self::new("new", |_| None),
             Self::new("replaced", |folder| {
                 fs::write(folder.join("s"), OLD).expect("written");
                 Some(OLD)
             }),
-        ];
-        all.extend([
             Self::new("through a link", |folder| {
                 fs::write(folder.join("end"), OLD).expect("written");
-                std::os::unix::fs::symlink("end", folder.join("s")).expect("linked");
+                symlink("end", folder.join("s")).expect("linked");
                 Some(OLD)
             }),
             Self::new("hard-linked", |folder| Some(hard_linked(folder))),
@@ -61,8 +59,7 @@ impl Case {
                     Some(hard_linked(folder))
                 })
             },
-        ]);
-        all
+        ]
     }
 
     /// What remains in the folder after another write there, except reported backup copies.
@@ -295,7 +292,7 @@ fn the_backup_of_an_interrupted_save_is_found() {
     let place = |name: &str| directory.path().join(name);
     fs::write(place("s"), "half of the ne").expect("written");
     fs::hard_link(place("s"), place("t")).expect("linked");
-    let inode = std::os::unix::fs::MetadataExt::ino(&fs::metadata(place("s")).expect("there"));
+    let inode = fs::metadata(place("s")).expect("there").ino();
     let copy = place(&format!(".halflight-backup-{inode:x}-00c0ffee-s"));
     fs::write(&copy, OLD).expect("written");
     assert_eq!(backups(&place("s")), [copy.as_path()]);

@@ -130,7 +130,8 @@ fn words(command: &str) -> Result<Vec<String>, String> {
     if Path::new(command).is_absolute() && Path::new(command).is_file() {
         return Ok(vec![command.to_owned()]);
     }
-    shell_words(command).ok_or_else(|| format!("`{command}` has an unmatched quote"))
+    shell_words(command)
+        .ok_or_else(|| format!("`{command}` ends within a quote or after a backslash"))
 }
 
 /// The absolute path of a file, with single slashes.

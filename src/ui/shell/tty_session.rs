@@ -3,9 +3,7 @@
 
 use std::io;
 use std::sync::Arc;
-use std::sync::mpsc::Sender;
-use std::sync::mpsc::{self, Receiver};
-
+use std::sync::mpsc::{self, Receiver, Sender};
 use std::time::{Duration, Instant};
 
 use crate::event::Event;
@@ -13,8 +11,9 @@ use crate::msg::Msg;
 use crate::options::Options;
 use crate::queue::spawn;
 use crate::terminal::query::Question;
-use crate::terminal::{self, Input, Replies, Reply, Terminal, Unread, tmux};
-use crate::terminal::{Signals, suspend_process};
+use crate::terminal::{
+    self, Input, Replies, Reply, Signals, Terminal, Unread, suspend_process, tmux,
+};
 
 /// Maximum time to wait for replies of the terminal before handing it over; longer than nearly all
 /// round trips.

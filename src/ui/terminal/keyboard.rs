@@ -1,7 +1,7 @@
 //! Waits for the bytes of the keyboard and decodes them.
 //!
-//! crossterm 0.29 could not: its reader blocks in the middle of a sequence, where it cannot be
-//! parked, and spins when the terminal is gone (crossterm#793).
+//! crossterm 0.29 is not used for this: its reader blocks in the middle of a sequence, where it cannot
+//! be parked, and spins when the terminal is gone (crossterm#793).
 
 use std::io::{self, Write};
 use std::os::fd::OwnedFd;

@@ -18,11 +18,9 @@ fn a_picture_file_that_cannot_be_created_exits_with_73_before_tracing() {
 #[test]
 fn a_picture_never_replaces_its_scene() {
     let place = Place::new();
-    let mut outputs = vec!["ball.ray", "./ball.ray", "hard.bmp"];
     fs::hard_link(place.at("ball.ray"), place.at("hard.bmp")).expect("linked");
     std::os::unix::fs::symlink("ball.ray", place.at("soft.bmp")).expect("linked");
-    outputs.push("soft.bmp");
-    for output in outputs {
+    for output in ["ball.ray", "./ball.ray", "hard.bmp", "soft.bmp"] {
         let stderr = place.stderr(&format!("render ball.ray -o {output} --format bmp"), 2);
         assert!(
             stderr.contains(output) && stderr.contains("is the scene itself"),

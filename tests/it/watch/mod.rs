@@ -45,7 +45,7 @@ enum Step {
     Link(&'static str, &'static str),
 }
 
-use Step::{Close, Directory, Duplicate, Open, Put, Remove, RemoveDirectory, Rename, Save};
+use Step::{Close, Directory, Duplicate, Link, Open, Put, Remove, RemoveDirectory, Rename, Save};
 
 /// A watched file in a directory of its own, and a reader that looks when notified.
 struct Watched {
@@ -141,7 +141,7 @@ fn take(directory: &Path, held: &mut Option<File>, step: Step) {
         Duplicate(from, to) => fs::copy(at(from), at(to)).map(|_| ()),
         Directory(name) => fs::create_dir(at(name)),
         RemoveDirectory(name) => fs::remove_dir_all(at(name)),
-        Step::Link(target, name) => std::os::unix::fs::symlink(target, at(name)),
+        Link(target, name) => std::os::unix::fs::symlink(target, at(name)),
     };
     done.unwrap_or_else(|error| panic!("{step:?}: {error}"));
 }

@@ -121,7 +121,7 @@ fn commands_are_split_like_in_a_shell() {
         assert_eq!(words(said).expect(said), expected);
     }
     let refused = words("vim 'x").expect_err("no second quote");
-    assert_eq!(refused, "`vim 'x` has an unmatched quote");
+    assert_eq!(refused, "`vim 'x` ends within a quote or after a backslash");
 }
 
 #[test]
