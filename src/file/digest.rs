@@ -87,7 +87,7 @@ mod tests {
                 &[&b"abc"[..], b""],
                 "3e2f8940c3a0e0fd6f6e07bbf07f015dd7c147431e5fa14bf3f225d782641540",
             ),
-            // With the length, as much as fits before the end of a block, and many blocks.
+            // With its length, the first part whose padding needs a second block; and many blocks.
             (
                 &[&[7; 48]],
                 "a69ae3466ac9b4d43f44f280b7bbd564930fd2ccb0ffc9a111a8ba1d6d9c800f",
