@@ -10,7 +10,6 @@
 //! continue each other.
 
 mod contents;
-mod crc;
 mod header;
 mod merge;
 mod reader;

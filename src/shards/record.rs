@@ -11,9 +11,9 @@
 use std::io::{self, Read};
 use std::time::Duration;
 
+use crc32fast::Hasher;
 use glam::DVec3;
 
-use super::crc::crc32;
 use render::{Block, Blocks, Counts, PixelHistory};
 
 const GOAL: u8 = b'G';
@@ -86,7 +86,7 @@ impl Record {
             }
             Self::Block(block) => put_block(block, &mut bytes),
         }
-        let crc = crc32(header, &bytes);
+        let crc = checksum(header, &bytes);
         bytes.extend(crc.to_le_bytes());
         bytes
     }
@@ -129,7 +129,7 @@ impl Record {
         }
         more(&mut bytes, CRC)?;
         let (said, crc) = bytes.split_at(bytes.len() - CRC);
-        if crc32(header, said).to_le_bytes() != crc {
+        if checksum(header, said).to_le_bytes() != crc {
             return Err(Damage::Corrupt);
         }
         Ok(Some(match said[0] {
@@ -146,6 +146,12 @@ impl Record {
 fn fill(from: &mut impl Read, bytes: &mut Vec<u8>, count: usize) -> Result<bool, Damage> {
     let read = from.by_ref().take(count as u64).read_to_end(bytes);
     Ok(read.map_err(Damage::Io)? == count)
+}
+
+fn checksum(header: u32, bytes: &[u8]) -> u32 {
+    let mut hasher = Hasher::new_with_initial(header);
+    hasher.update(bytes);
+    hasher.finalize()
 }
 
 /// The bytes of each list that some blocks have, in a block of this many pixels, by their bits.

@@ -54,8 +54,8 @@ const ROOMS: &[(&str, usize)] = &[
     // lines.
     ("render", 16500),
     ("scene", 1300),
-    // It also holds the traces of the interface, and the checksum of records.
-    ("shards", 1400),
+    // It also holds the traces of the interface.
+    ("shards", 1300),
     ("track", 1700),
     // Each room lists what others may call, and each function the state it changes. Frames, base64 and
     // the nearest of few colours take a hundred lines, for ten dependencies.
