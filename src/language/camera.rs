@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::table::Range;
+use super::schema::Range;
 use geometry::{Aabb, normalise};
 use scene::Camera;
 use text::{Diagnostic, Findings, Span};

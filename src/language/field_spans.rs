@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::SceneText;
-use super::table::Field;
+use super::schema::Field;
 use text::{Edit, Span};
 
 /// A field with the places of its components.

@@ -32,6 +32,12 @@ impl Form {
         }
     }
 
+    /// Whether its axes are those of the world, in any order.
+    pub(super) fn is_aligned(&self) -> bool {
+        let is_world = |axis: &DVec3| 1.0 - axis.abs().max_element() < 1e-9;
+        self.axes.iter().all(is_world)
+    }
+
     /// Half the extents along the world's axes of an aligned solid that resembles this one: each
     /// along the axis of the frame that is nearest to it.
     pub(super) fn aligned(&self) -> [f64; 3] {

@@ -2,7 +2,7 @@
 
 use super::StructureError;
 use super::form::{orthonormal, rounded};
-use super::slot::At;
+use super::schema::position::At;
 
 /// The error for a node without directions.
 pub(super) fn frameless(name: &str) -> StructureError {

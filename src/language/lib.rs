@@ -10,6 +10,7 @@ mod camera;
 pub mod coefficients;
 mod convert;
 mod dat;
+mod engine;
 mod field_spans;
 mod form;
 mod frame;
@@ -25,12 +26,11 @@ mod rendering;
 mod report;
 mod roles;
 mod saved;
-mod slot;
+pub mod schema;
 mod spelling;
 mod starter;
 mod structure;
 mod surroundings;
-pub mod table;
 #[cfg(test)]
 mod tests;
 mod verify_conversion;
@@ -52,7 +52,7 @@ use losses::Losses;
 use memory::OutOfMemory;
 use memory_estimate::Counts;
 use scene::{Camera, Meshes, Scene};
-use table::{Category, Field};
+use schema::{Category, Field};
 use text::{Diagnostic, Edit, Findings, Span, alternatives};
 use view::Numbers;
 
@@ -143,25 +143,25 @@ macro_rules! languages {
             findings.sorted()
         }
 
-        /// A scene's text in one language, with its tree and the places of its nodes.
+        /// A text in one of the languages.
         #[derive(Clone, Debug)]
-        pub enum Source {
-            $($(#[$doc])* $name(Box<$folder::Source>),)+
+        enum OneOf {
+            $($name(Box<$folder::Source>),)+
         }
 
         impl Source {
             /// Parses a text. Never fails: every part of the text has a place in the tree. Nodes
             /// have places only after lowering.
             pub fn new(language: Language, text: Arc<String>) -> Self {
-                match language {
-                    $(Language::$name => Self::$name(Box::new($folder::Source::new(text))),)+
-                }
+                Self(match language {
+                    $(Language::$name => OneOf::$name(Box::new($folder::Source::new(text))),)+
+                })
             }
 
             /// The language of the text.
             pub fn language(&self) -> Language {
-                match self {
-                    $(Self::$name(_) => Language::$name,)+
+                match self.0 {
+                    $(OneOf::$name(_) => Language::$name,)+
                 }
             }
         }
@@ -170,16 +170,16 @@ macro_rules! languages {
             type Target = dyn SceneText;
 
             fn deref(&self) -> &Self::Target {
-                match self {
-                    $(Self::$name(source) => &**source,)+
+                match &self.0 {
+                    $(OneOf::$name(source) => &**source,)+
                 }
             }
         }
 
         impl DerefMut for Source {
             fn deref_mut(&mut self) -> &mut Self::Target {
-                match self {
-                    $(Self::$name(source) => &mut **source,)+
+                match &mut self.0 {
+                    $(OneOf::$name(source) => &mut **source,)+
                 }
             }
         }
@@ -194,6 +194,10 @@ languages! {
     /// The University of Utah's `.xml`: elements with attributes.
     Xml in xml,
 }
+
+/// A scene's text in one language, with its tree and the places of its nodes.
+#[derive(Clone, Debug)]
+pub struct Source(OneOf);
 
 impl Source {
     /// The literals of the view's fields for a camera, one per component.
@@ -226,10 +230,8 @@ pub struct UnknownLanguage(pub PathBuf);
 impl Language {
     /// The language with this extension, given without the dot, ignoring case.
     pub fn of_extension(extension: impl AsRef<OsStr>) -> Option<Self> {
-        let is = |known: &Self| {
-            let extension = extension.as_ref();
-            extension.eq_ignore_ascii_case(known.extension())
-        };
+        let extension = extension.as_ref();
+        let is = |known: &Self| extension.eq_ignore_ascii_case(known.extension());
         Self::ALL.into_iter().find(is)
     }
 
@@ -262,10 +264,8 @@ impl Lowered {
             let start = Span::at(0);
             Diagnostic::error(start, reason.to_string(), "a scene that fits into memory")
         });
-        Self {
-            scene: None,
-            diagnostics,
-        }
+        let scene = None;
+        Self { scene, diagnostics }
     }
 }
 

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::partition::partition_point;
+use super::schema::Category;
 use text::Span;
 
 /// A node with fields, in the order of the list in the interface.
@@ -26,6 +27,31 @@ pub enum Node {
     Texture(usize),
     /// An object, by index.
     Object(usize),
+}
+
+impl Node {
+    /// The node of a category with this index.
+    pub(super) const fn of(category: Category, index: usize) -> Self {
+        match category {
+            Category::Light => Self::Light(index),
+            Category::Material => Self::Material(index),
+            Category::Texture => Self::Texture(index),
+            Category::Object => Self::Object(index),
+        }
+    }
+
+    /// Its category and index; `None` for what a scene has once.
+    pub(super) const fn category(self) -> Option<(Category, usize)> {
+        match self {
+            Self::Light(index) => Some((Category::Light, index)),
+            Self::Material(index) => Some((Category::Material, index)),
+            Self::Texture(index) => Some((Category::Texture, index)),
+            Self::Object(index) => Some((Category::Object, index)),
+            Self::Render | Self::View | Self::Ambient | Self::Background | Self::Environment => {
+                None
+            }
+        }
+    }
 }
 
 /// The noun for the kind of node, with its number from 1: `light 2`.

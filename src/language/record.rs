@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::report::{Name, out_of_range};
-use super::table::{Field, Kind};
+use super::schema::{Field, Kind};
 use geometry::{FLATTEST, normalise};
 use text::{Diagnostic, Findings, Span, concise};
 
@@ -62,6 +62,13 @@ impl<'a> Record<'a> {
         for part in self.parts(fields) {
             match part.field.kind {
                 Kind::Direction | Kind::Axis => self.check_direction(&part, report),
+                Kind::HalfSpace if DVec3::from_slice(part.values) == DVec3::ZERO => {
+                    report.error(|| {
+                        let name = what(self.name, part.field, "");
+                        let message = format!("{name}: its normal must not be zero");
+                        Diagnostic::error(part.spans[0].to(part.spans[2]), message, "a direction")
+                    });
+                }
                 // Checked when they were read.
                 Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) | Kind::Word => {}
                 _ => self.check_numbers(&part, report),

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use super::field_spans::{FieldSpans, Implicit, ImplicitAttribute, Insertion, Piece, Wanted};
 use super::report::{did_you_mean, no_number, number, quoted};
-use super::table::{Field, Kind, Range};
+use super::schema::{Field, Kind, Range};
 use super::view::line_from;
 use super::words::Words;
 use scene::{RenderKey, Rendering, Values};

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::table::Field;
+use super::schema::Field;
 use text::{
     Diagnostic, Findings, NumberError, Severity, Span, concise, parse_number, without_suffix,
 };

@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::Node;
 use super::form::{Form, Motion};
 use super::roles::Roles;
-use super::table::Category;
+use super::schema::Category;
 use super::view::{beginning, line_ending, line_from};
 use text::{Edit, Span, line_end, next_line, parse_number, rounded, spell_like, without_suffix};
 

@@ -1,6 +1,6 @@
 //! Cameras in a language: the literals of the view's fields.
 
-use super::table::{Field, Kind};
+use super::schema::{Field, Kind};
 use text::{line_end, line_start, next_line, parse_number};
 
 /// The numbers of the view's fields, one per component; for a choice, the index of the word.

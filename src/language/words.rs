@@ -17,17 +17,6 @@ impl<'t> Words<'t> {
             at: span.start(),
         }
     }
-
-    /// Takes the next `N` words; takes none and returns `None` if there are fewer.
-    pub(super) fn next_array<const N: usize>(&mut self) -> Option<[Span; N]> {
-        let mut rest = self.clone();
-        let mut words = [Span::default(); N];
-        for word in &mut words {
-            *word = rest.next()?;
-        }
-        *self = rest;
-        Some(words)
-    }
 }
 
 impl Iterator for Words<'_> {
@@ -101,16 +90,6 @@ fn is_blank(byte: u8) -> bool {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-
-    #[test]
-    fn words_are_taken_all_or_not_at_all() {
-        let text = "a bc\u{A0}d é";
-        let mut words = Words::new(text, Span::new(1, text.len()));
-        assert_eq!(words.next_array::<4>(), None);
-        let taken: [Span; 2] = words.next_array().expect("there are three");
-        assert!(taken.iter().map(|word| word.of(text)).eq(["bc", "d"]));
-        assert!(words.map(|word| word.of(text)).eq(["é"]));
-    }
 
     proptest! {
         #![proptest_config(repeatable::config())]

@@ -10,7 +10,7 @@ use text::{Edit, Span, are_plain_numbers};
 
 /// A text, its tree, and the places of its nodes.
 #[derive(Clone, Debug)]
-pub struct Written<Tree, Origins> {
+pub(crate) struct Written<Tree, Origins> {
     /// Copied on write if shared.
     pub(super) text: Arc<String>,
     pub(super) tree: Tree,

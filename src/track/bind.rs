@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::field::{self, Place};
 use super::{CameraTrack, FieldTrack, Keys, Parameter, Track, Value, thing};
-use language::table::Range;
+use language::schema::Range;
 use language::{FieldSpans, Node, Source};
 use scene::{Camera, Lens};
 use text::{Diagnostic, Edit, Findings, spell_like};

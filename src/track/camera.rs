@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::Keys;
-use language::table::Range;
+use language::schema::Range;
 use scene::{Camera, Lens};
 use text::Span;
 

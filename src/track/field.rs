@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Key, Keys, Named, Value};
-use language::table::{Field, Kind, Range};
+use language::schema::{Field, Kind, Range};
 use language::{FieldSpans, Node, Source};
 use text::{Diagnostic, Findings, alternatives, counted, nearest_word};
 

@@ -6,7 +6,7 @@ use std::sync::{Arc, mpsc};
 use halflight::assets::{Assets, Loaded, Wanted};
 use halflight::document::Document;
 use halflight::image_file::{ImageFormat, Picture};
-use halflight::language::table::{Field, Kind, Range};
+use halflight::language::schema::{Field, Kind, Range};
 use halflight::language::{Language, Lowered, NamedFile, Node, Source};
 use halflight::render::{Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::{Images, Integrator, Meshes, Rendering, Scene, Size};

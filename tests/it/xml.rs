@@ -6,7 +6,7 @@ use std::process::Command;
 use std::sync::{Arc, mpsc};
 
 use halflight::assets::{Assets, Wanted};
-use halflight::language::table::Kind;
+use halflight::language::schema::Kind;
 use halflight::language::{FieldSpans, Language, Lowered, Node, Source};
 use halflight::render::{Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::{Images, Meshes, Rendering, Scene};

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 
 use super::*;
-use language::table::Kind;
+use language::schema::Kind;
 use language::{Neighbour, NewNode, Node, Visibility};
 use text::smallest_edit;
 

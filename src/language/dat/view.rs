@@ -2,15 +2,12 @@
 
 use glam::DVec3;
 
-use super::origins::{Origins, VIEW};
-use super::table::{PROJECTIONS, RecordKind};
-use super::tree::Tree;
-use crate::slot::At;
+use super::Film;
+use super::schema::{self, CAMERA, PROJECTIONS};
+use crate::schema::position::At;
 use crate::spelling::rounded_off;
-use crate::table::{Field, Kind};
-use crate::view::{Numbers, beginning, line_ending, literal, take};
+use crate::view::Numbers;
 use scene::{Camera, Focus, Lens, Size};
-use text::{Edit, Span, spell_like};
 
 /// The far distance written for an unlimited view: `.dat` cannot express infinity.
 pub(super) const FARTHEST: f64 = 1e30;
@@ -21,32 +18,18 @@ pub(super) const DEFAULT_SIZE: Size = Size {
     height: 600,
 };
 
-/// Number of numbers in the records of [`VIEW`].
-const COUNT: usize = RecordKind::Camera.numbers()
-    + RecordKind::Resolution.numbers()
-    + RecordKind::Viewport.numbers();
+/// Number of numbers in the records of the view.
+const COUNT: usize = CAMERA.numbers() + schema::RESOLUTION.numbers() + schema::VIEWPORT.numbers();
 
-const PROJECTION: At<1> = RecordKind::Camera.at("projection");
-pub(super) const EYE: At<3> = RecordKind::Camera.at("eye");
-pub(super) const LOOK: At<3> = RecordKind::Camera.at("look");
-pub(super) const UP: At<3> = RecordKind::Camera.at("up");
-const FOCAL: At<1> = RecordKind::Camera.at("focal");
-const NEAR: At<1> = RecordKind::Camera.at("near");
-pub(super) const FAR: At<1> = RecordKind::Camera.at("far");
-const RESOLUTION: At<2> = RecordKind::Resolution
-    .at("resolution")
-    .later(RecordKind::Camera.numbers());
-const VIEWPORT: At<2> = RecordKind::Viewport
-    .at("viewport")
-    .later(COUNT - RecordKind::Viewport.numbers());
-
-/// The first word of each record of [`VIEW`].
-const WORDS: [&str; 3] = ["camera", "resolution", "viewport"];
-
-/// The fields of the view.
-pub(super) fn fields() -> impl Iterator<Item = &'static Field> {
-    VIEW.into_iter().flat_map(RecordKind::fields)
-}
+const PROJECTION: At<1> = CAMERA.at("projection");
+pub(super) const EYE: At<3> = CAMERA.at("eye");
+pub(super) const LOOK: At<3> = CAMERA.at("look");
+pub(super) const UP: At<3> = CAMERA.at("up");
+const FOCAL: At<1> = CAMERA.at("focal");
+const NEAR: At<1> = CAMERA.at("near");
+pub(super) const FAR: At<1> = CAMERA.at("far");
+const RESOLUTION: At<2> = schema::RESOLUTION.at("resolution").later(CAMERA.numbers());
+const VIEWPORT: At<2> = schema::VIEWPORT.at("viewport").later(COUNT - 2);
 
 /// The content of the records of the view.
 #[derive(Clone, Copy, Debug)]
@@ -88,15 +71,15 @@ impl View {
 
     /// The view that describes a camera. An angle of view is expressed by the focal length, with
     /// the resolution unchanged; the height of an orthographic view by the resolution.
-    fn of(camera: &Camera, origins: &Origins) -> Self {
+    fn of(camera: &Camera, film: &Film) -> Self {
         let rows = f64::from(camera.size.height);
         let (focal, up) = match camera.lens {
             Lens::Perspective(angle) => {
-                let up = origins.resolution[1];
+                let up = film.resolution[1];
                 let focal = 0.5 * rows * up / libm::tan(0.5 * angle.to_radians());
                 (rounded_off(focal), up)
             }
-            Lens::Orthographic(height) => (origins.focal, rounded_off(height / rows)),
+            Lens::Orthographic(height) => (film.focal, rounded_off(height / rows)),
         };
         let across = if camera.pixel_aspect == 1.0 {
             up
@@ -130,7 +113,7 @@ impl View {
         }
     }
 
-    /// The view with these numbers in its three records, in the order of [`fields`].
+    /// The view with these numbers in its three records, in the order of the table.
     fn from_numbers(numbers: &[f64]) -> Self {
         Self {
             resolution: RESOLUTION.get(numbers),
@@ -139,7 +122,7 @@ impl View {
         }
     }
 
-    /// The numbers of the view, in the order of [`fields`].
+    /// The numbers of the view, in the order of the table.
     fn numbers(&self) -> Numbers {
         let mut numbers = vec![0.0; COUNT];
         PROJECTION.choose(&mut numbers, &PROJECTIONS, self.is_perspective);
@@ -165,15 +148,15 @@ pub(super) fn size([width, height]: [f64; 2]) -> Size {
     }
 }
 
-/// The numbers of a camera, in the order of [`fields`].
-pub(super) fn numbers(camera: &Camera, origins: &Origins) -> Numbers {
-    View::of(camera, origins).numbers()
+/// The numbers of a camera, in the order of the table.
+pub(super) fn numbers(camera: &Camera, film: &Film) -> Numbers {
+    View::of(camera, film).numbers()
 }
 
 /// The camera described by these numbers; `base` is a camera of the same text. Parts whose numbers
 /// agree with `base` are kept bit for bit.
-pub(super) fn camera(numbers: &Numbers, base: &Camera, origins: &Origins) -> Camera {
-    let before = View::from_numbers(&self::numbers(base, origins));
+pub(super) fn camera(numbers: &Numbers, base: &Camera, film: &Film) -> Camera {
+    let before = View::from_numbers(&self::numbers(base, film));
     let view = View::from_numbers(numbers);
     let camera = view.camera();
     let lens = match base.lens {
@@ -209,70 +192,4 @@ pub(super) fn camera(numbers: &Numbers, base: &Camera, origins: &Origins) -> Cam
         focus: base.focus,
         ..camera
     }
-}
-
-/// Returns the edits that change the text's camera from `before` to `camera`.
-pub(super) fn edits(
-    text: &str,
-    tree: &Tree,
-    origins: &Origins,
-    before: &Camera,
-    camera: &Camera,
-) -> Vec<Edit> {
-    let (old, new) = (numbers(before, origins), numbers(camera, origins));
-    let mut edits = Vec::new();
-    let mut missing = String::new();
-    let mut behind = 0;
-    for ((record, kind), word) in origins.view.iter().zip(VIEW).zip(WORDS) {
-        let own = behind..behind + kind.numbers();
-        behind = own.end;
-        let (old, new) = (&old[own.clone()], &new[own]);
-        // A missing resolution depends on the focal length, so a new lens must pin it.
-        let is_moved = kind == RecordKind::Resolution && before.lens != camera.lens;
-        match record {
-            Some(record) => {
-                let fields = kind.fields();
-                let fields = fields.flat_map(|at| std::iter::repeat_n(at, at.kind.components()));
-                let spans = tree.tokens_of(text, *record).skip(1);
-                let numbers = fields.zip(spans).zip(old.iter().zip(new));
-                let changed = numbers.filter(|(_, (old, new))| old != new);
-                edits.extend(changed.map(|((field, span), (_, &number))| Edit {
-                    span,
-                    text: respelled(span.of(text), field, number),
-                }));
-            }
-            None if old != new || is_moved => {
-                missing.push_str(&record_of(word, kind, new));
-                missing.push_str(line_ending(text));
-            }
-            None => {}
-        }
-    }
-    if !missing.is_empty() {
-        edits.push(Edit {
-            span: Span::at(beginning(text)),
-            text: missing,
-        });
-    }
-    Edit::sort(&mut edits);
-    edits
-}
-
-/// Formats a number in the style of the literal it replaces, if that is a number.
-fn respelled(old: &str, field: &Field, number: f64) -> String {
-    match field.kind {
-        Kind::Choice(_) => literal(field, number),
-        _ => spell_like(old, number + 0.0),
-    }
-}
-
-/// Formats a whole record.
-fn record_of(word: &str, kind: RecordKind, mut numbers: &[f64]) -> String {
-    let parts = kind.fields().map(|field| {
-        let own = take(&mut numbers, field);
-        let literals: Vec<_> = own.iter().map(|&number| literal(field, number)).collect();
-        literals.join(" ")
-    });
-    let parts: Vec<_> = parts.collect();
-    format!("{word} {}", parts.join("  "))
 }

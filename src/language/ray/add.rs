@@ -3,13 +3,13 @@
 use glam::DVec3;
 
 use super::Source;
-use super::form::{new_object, retyped};
-use super::table::{LIGHT, MATERIAL, ShapeKind};
+use super::schema::{LIGHT, MATERIAL, SCHEMA, ShapeKind};
 use super::tree::comment_of_line;
+use crate::engine::motion::{Moves, refusal};
 use crate::form::Form;
+use crate::schema::{Field, Kind};
 use crate::spelling::rounded_off;
 use crate::structure::NewNode;
-use crate::table::{self, Field, Kind};
 use crate::view::{line_ending, line_from, spelled};
 use crate::{Addition, Node, Placement, SceneText, StructureEdits, StructureError};
 use text::{Edit, Span, next_line};
@@ -40,13 +40,14 @@ pub(super) fn addition(
             ShapeKind::Sphere | ShapeKind::Ellipsoid | ShapeKind::Box => DVec3::Z,
         };
         let form = Form::upright(wish.centre, wish.half, axis);
-        let mut literals = literals(kind, &new_object(kind, &form), wish);
-        if let Node::Object(selected) = wish.after
-            && let Some(material) = source.material_literals(selected)
-        {
-            literals.truncate(table::numbers(kind.geometry()));
-            literals.extend(material);
-        }
+        let numbers = numbers(kind, &form)?.into_iter();
+        let mut literals: Vec<_> = numbers.map(|number| wish.literal(number)).collect();
+        let material = match wish.after {
+            Node::Object(selected) => source.material_literals(selected),
+            _ => None,
+        };
+        let plain = || PLAIN.split(' ').map(str::to_owned).collect();
+        literals.extend(material.unwrap_or_else(plain));
         let like = source.like(kind, wish.after);
         source.laid_out(kind.keyword(), kind.fields(), &literals, like)
     } else {
@@ -55,59 +56,55 @@ pub(super) fn addition(
         let literals: Vec<_> = numbers.map(|number| wish.literal(number)).collect();
         let lights = source.origins.light_count();
         let like = lights.checked_sub(1).map(Node::Light);
-        source.laid_out("", LIGHT.iter(), &literals, like)
+        source.laid_out("", LIGHT.fields(), &literals, like)
     };
     source.insertion(&text, wish.after)
 }
 
-/// Returns the edits that change an object to another kind.
-pub(super) fn retyping(
+/// Returns the edits that make an object one of another kind, of this form.
+pub(super) fn respelled(
     source: &Source,
-    node: Node,
+    object: usize,
     kind: &str,
+    form: &Form,
 ) -> Result<Vec<Edit>, StructureError> {
-    let fixed =
-        || StructureError::Inexpressible(format!("{} has only one type", source.name(node)));
-    let Node::Object(index) = node else {
-        return Err(fixed());
-    };
-    let new = ShapeKind::of_word(kind).ok_or_else(fixed)?;
-    let (old, spans, values) = source.object_numbers(index).ok_or_else(fixed)?;
-    let numbers = retyped(old, new, &values);
-    let geometry = |kind: ShapeKind| table::numbers(kind.geometry());
-    let literals: Vec<_> = numbers[..geometry(new)]
-        .iter()
-        .map(|&number| spelled(rounded_off(number)))
+    let node = Node::Object(object);
+    let old = source.object_numbers(object).zip(ShapeKind::of_word(kind));
+    let (old, new) = old.ok_or_else(|| {
+        StructureError::Inexpressible(format!("{} has only one type", source.name(node)))
+    })?;
+    let literals = numbers(new, form)?.into_iter();
+    let literals: Vec<_> = literals
+        .map(|number| spelled(rounded_off(number)))
         .collect();
     // The material stays as it is written.
-    let own = source.span(node);
-    let last = spans[geometry(old) - 1];
-    let like = Some(node);
-    let text = source.laid_out(new.keyword(), new.geometry().iter(), &literals, like);
-    let span = Span::new(own.start(), last.end());
+    let last = old.spans[old.record.numbers() - 1];
+    let span = Span::new(source.span(node).start(), last.end());
+    let text = source.laid_out(new.keyword(), new.record().fields(), &literals, Some(node));
     Ok(vec![Edit {
         span,
         text: source.with_comments(span, text.trim_start()),
     }])
 }
 
-/// The literals of a new object.
-fn literals(kind: ShapeKind, numbers: &[f64], wish: &NewNode<'_>) -> Vec<String> {
-    let geometry = table::numbers(kind.geometry());
-    let shape = numbers[..geometry]
-        .iter()
-        .map(|&number| wish.literal(number));
-    let material = numbers[geometry..].iter().map(f64::to_string);
-    shape.chain(material).collect()
+/// The numbers of a shape of this form.
+fn numbers(kind: ShapeKind, form: &Form) -> Result<Vec<f64>, StructureError> {
+    let mut numbers = vec![0.0; kind.geometry()];
+    let put = kind.layout().put(form, &mut numbers);
+    put.map_err(|unfit| refusal(unfit, SCHEMA.extension, kind.keyword()))?;
+    Ok(numbers)
 }
+
+/// The literals of a plain material.
+const PLAIN: &str = "0.1 0.1 0.1 0.6 0.6 0.6 0.3 0.3 0.3 20 0 0 1";
 
 impl Source {
     /// The material of an object as it is written.
     fn material_literals(&self, index: usize) -> Option<Vec<String>> {
-        let (kind, spans, _) = self.object_numbers(index)?;
-        let spans = spans.get(table::numbers(kind.geometry())..)?;
+        let numbers = self.object_numbers(index)?;
+        let spans = &numbers.spans[numbers.record.numbers()..];
         let literals = spans.iter().map(|span| span.of(&self.text).to_owned());
-        Some(literals.collect())
+        (spans.len() == MATERIAL.numbers()).then(|| literals.collect())
     }
 
     /// A new text for a span, with the comments of the old one before it, each on its own line.
@@ -195,7 +192,7 @@ impl Source {
                     let start = self.span(model).start() + kind.keyword().len();
                     (kind.fields().collect(), Some((KEYWORD, start)))
                 }
-                _ => (LIGHT.iter().collect(), None),
+                _ => (LIGHT.fields().collect(), None),
             };
             let mut at = 0;
             let mut joints = Vec::new();
@@ -243,7 +240,7 @@ fn breaks(joints: &[Joint], before: Side, field: &Field) -> bool {
     let is_same = |joint: &&Joint| joint.sides == [before, (field.key, Some(field.kind))];
     let is_alike = |joint: &&Joint| {
         let [a, b] = joint.sides;
-        let is_shape = |key| MATERIAL.iter().all(|field| field.key != key);
+        let is_shape = |key| MATERIAL.fields().all(|field| field.key != key);
         let kinds = [a.1, b.1] == [before.1, Some(field.kind)];
         kinds && [a.0, b.0, before.0, field.key].into_iter().all(is_shape)
     };

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::objects::{first_compared, known_material};
 use super::origins::ObjectPlace;
 use super::reader::{LEAST_NUMBERS, Reader};
-use super::table::ShapeKind;
+use super::schema::ShapeKind;
 use super::tree::Tokens;
 use geometry::Shape;
 use scene::blocks::BLOCK;

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::blocks;
 use super::origins::ObjectPlace;
 use super::reader::LEAST_NUMBERS;
-use super::table::ShapeKind;
+use super::schema::ShapeKind;
 use super::tree::Tree;
 use crate::memory_estimate::{Counts, each};
 use geometry::Affine;

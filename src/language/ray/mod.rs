@@ -3,7 +3,6 @@
 
 mod add;
 mod blocks;
-mod form;
 mod incremental;
 mod lower;
 mod memory_estimate;
@@ -13,7 +12,9 @@ mod reader;
 mod roles;
 mod scene_text;
 mod structure;
-mod table;
+// A slot a row.
+#[rustfmt::skip]
+mod schema;
 #[cfg(test)]
 mod tests;
 mod tree;

@@ -2,13 +2,11 @@
 
 use super::origins::ObjectPlace;
 use super::reader::{Count, LEAST_NUMBERS, Numbers, Reader, component, is_word};
-use super::table::{MATERIAL, ShapeKind};
+use super::schema::{MATERIAL, ShapeKind};
 use crate::coefficients::Coefficients;
 use crate::record::Record;
 use crate::report::{Name, did_you_mean, quoted};
-use crate::slot::At;
-use crate::table;
-use geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, Sphere};
+use geometry::Shape;
 use scene::blocks::BLOCK;
 use scene::{Material, Object};
 use text::{Diagnostic, Span, alternatives, counted};
@@ -112,13 +110,13 @@ impl<'a> Reader<'a> {
         let known = spelling.and_then(|spelling| self.known(spelling));
         // The numbers of a known material are not read again.
         let due = match known {
-            Some(_) => kind.geometry().len(),
+            Some(_) => kind.record().slots.len(),
             None => kind.fields().count(),
         };
         let mut numbers = Numbers::default();
         let record = self.record(name, kind.fields().take(due), &mut numbers);
         let mut found = record.values.len();
-        if known.is_some() && found == table::numbers(kind.geometry()) {
+        if known.is_some() && found == kind.geometry() {
             found = kind.numbers();
             self.at = keyword + 1 + found;
         }
@@ -127,7 +125,7 @@ impl<'a> Reader<'a> {
             kind,
             numbers: found as u8,
         });
-        record.check_frame(kind.geometry().iter(), &mut self.report);
+        record.check_frame(kind.record().fields(), &mut self.report);
         if found < kind.numbers() {
             match count {
                 Some(count) if self.at == self.tokens.end() => self.cut(&record, kind, count),
@@ -154,8 +152,8 @@ impl<'a> Reader<'a> {
 
     /// The text of an object's material; `None` if there are too few tokens.
     fn spelling(&self, kind: ShapeKind) -> Option<&'a str> {
-        let first = self.at + table::numbers(kind.geometry());
-        let last = first + table::numbers(MATERIAL) - 1;
+        let first = self.at + kind.geometry();
+        let last = first + MATERIAL.numbers() - 1;
         let span = self.tokens.get(first)?.to(self.tokens.get(last)?);
         Some(span.of(self.text))
     }
@@ -179,8 +177,8 @@ impl<'a> Reader<'a> {
 
     /// Adds an object without errors to the scene. Its material is read unless it is `known`.
     fn keep(&mut self, record: Record, kind: ShapeKind, known: Option<u32>) {
-        let (geometry, material) = record.split_at(table::numbers(kind.geometry()));
-        let Some(shape) = shape(geometry.values, kind) else {
+        let (geometry, material) = record.split_at(kind.geometry());
+        let Some(solid) = kind.layout().solid(geometry.values) else {
             let span = geometry.spans[0].to(geometry.spans[geometry.spans.len() - 1]);
             self.report.error(|| {
                 let message = format!("{}: its directions are linearly dependent", record.name);
@@ -192,6 +190,7 @@ impl<'a> Reader<'a> {
             let material = coefficients(material.values);
             self.material(material.into())
         });
+        let shape = Shape::Solid(solid);
         self.objects.push(Object { shape, material });
     }
 
@@ -322,77 +321,13 @@ fn object_name(places: &[ObjectPlace], index: usize) -> String {
 /// The material described by these numbers.
 fn coefficients(numbers: &[f64]) -> Coefficients {
     Coefficients {
-        ambient: const { At::<3>::of(MATERIAL, "ka") }.vector(numbers),
-        diffuse: const { At::<3>::of(MATERIAL, "kd") }.vector(numbers),
-        specular: const { At::<3>::of(MATERIAL, "ks") }.vector(numbers),
-        exponent: const { At::<1>::of(MATERIAL, "ns") }.number(numbers),
-        reflection: const { At::<1>::of(MATERIAL, "kr") }.number(numbers),
-        transmission: const { At::<1>::of(MATERIAL, "kt") }.number(numbers),
-        index: const { At::<1>::of(MATERIAL, "ior") }.number(numbers),
-    }
-}
-
-/// The shape described by these numbers; `None` if its directions are linearly dependent.
-fn shape(numbers: &[f64], kind: ShapeKind) -> Option<Shape> {
-    const ELLIPSOID: FrameFields = FrameFields::of(
-        ShapeKind::Ellipsoid,
-        "centre",
-        ["v1", "v2", "v3"],
-        ["l1", "l2", "l3"],
-    );
-    const BOX: FrameFields = FrameFields::of(
-        ShapeKind::Box,
-        "corner",
-        ["vl", "vw", "vh"],
-        ["length", "width", "height"],
-    );
-    const CYLINDER: FrameFields = FrameFields::of(
-        ShapeKind::Cylinder,
-        "base",
-        ["a1", "a2", "axis"],
-        ["l1", "l2", "height"],
-    );
-    const CONE: FrameFields = FrameFields::of(
-        ShapeKind::Cone,
-        "base",
-        ["a1", "a2", "axis"],
-        ["l1", "l2", "height"],
-    );
-    Some(Shape::Solid(match kind {
-        ShapeKind::Sphere => Solid::Sphere(Sphere {
-            centre: const { ShapeKind::Sphere.at("centre") }.vector(numbers),
-            radius: const { ShapeKind::Sphere.at("radius") }.number(numbers),
-        }),
-        ShapeKind::Ellipsoid => Solid::Ellipsoid(Box::new(Ellipsoid(ELLIPSOID.affine(numbers)?))),
-        ShapeKind::Box => Solid::Cuboid(Box::new(Cuboid(BOX.affine(numbers)?))),
-        ShapeKind::Cylinder => Solid::Cylinder(Box::new(Cylinder(CYLINDER.affine(numbers)?))),
-        ShapeKind::Cone => Solid::Cone(Box::new(Cone(CONE.affine(numbers)?))),
-    }))
-}
-
-/// The positions of the fields of a shape with a frame.
-struct FrameFields {
-    origin: At<3>,
-    directions: [At<3>; 3],
-    lengths: [At<1>; 3],
-}
-
-impl FrameFields {
-    const fn of(kind: ShapeKind, origin: &str, directions: [&str; 3], lengths: [&str; 3]) -> Self {
-        let ([a, b, c], [along_a, along_b, along_c]) = (directions, lengths);
-        Self {
-            origin: kind.at(origin),
-            directions: [kind.at(a), kind.at(b), kind.at(c)],
-            lengths: [kind.at(along_a), kind.at(along_b), kind.at(along_c)],
-        }
-    }
-
-    fn affine(&self, numbers: &[f64]) -> Option<Affine> {
-        Affine::new(
-            self.origin.vector(numbers),
-            self.directions.map(|direction| direction.vector(numbers)),
-            self.lengths.map(|length| length.number(numbers)).into(),
-        )
+        ambient: const { MATERIAL.at("ka") }.vector(numbers),
+        diffuse: const { MATERIAL.at("kd") }.vector(numbers),
+        specular: const { MATERIAL.at("ks") }.vector(numbers),
+        exponent: const { MATERIAL.at("ns") }.number(numbers),
+        reflection: const { MATERIAL.at("kr") }.number(numbers),
+        transmission: const { MATERIAL.at("kt") }.number(numbers),
+        index: const { MATERIAL.at("ior") }.number(numbers),
     }
 }
 
@@ -404,7 +339,7 @@ fn takes(kind: ShapeKind) -> String {
         "a"
     };
     let keyword = kind.keyword();
-    let shape = table::numbers(kind.geometry());
+    let shape = kind.geometry();
     let material = kind.numbers() - shape;
     format!("{article} {keyword} takes {shape} numbers and {material} more for its material")
 }

@@ -5,12 +5,12 @@
 
 use std::sync::Arc;
 
-use super::table::{LIGHT, ShapeKind, VIEW};
+use super::schema::{LIGHT, ShapeKind, VIEW};
 use super::tree::Tree;
 use crate::field_spans::FieldSpans;
 use crate::node::Node;
 use crate::rendering::{self, RenderPlace};
-use crate::table::{self, Field};
+use crate::schema::Field;
 use crate::view::{beginning, line_ending};
 use scene::Rendering;
 use text::Span;
@@ -18,7 +18,7 @@ use text::Span;
 /// The places of everything lowered, as token indices: valid only with the tree they were made
 /// from.
 #[derive(Clone, Debug, Default)]
-pub struct Origins {
+pub(crate) struct Origins {
     pub(super) view: Option<ViewPlace>,
     pub(super) render: Option<RenderPlace>,
     /// Number of tokens, at the start, that are ambient light's numbers.
@@ -36,7 +36,7 @@ pub(super) struct ViewPlace {
     /// The whole comment.
     pub(super) comment: Span,
     /// In the order of [`VIEW`]: one span per component of the field, or `None` if missing.
-    pub(super) parts: [Option<[Span; 3]>; VIEW.len()],
+    pub(super) parts: [Option<[Span; 3]>; VIEW.slots.len()],
 }
 
 /// The place of an object.
@@ -53,9 +53,8 @@ pub(super) struct ObjectPlace {
 impl Origins {
     /// The number of lights that have at least their first field.
     pub(super) fn light_count(&self) -> usize {
-        let [first, ..] = LIGHT;
-        let each = table::numbers(LIGHT);
-        (self.lights.1 + each - first.kind.components()) / each
+        let each = LIGHT.numbers();
+        (self.lights.1 + each - LIGHT.field(0).kind.components()) / each
     }
 
     /// The tokens of a node's numbers; none for what is stated in comments.
@@ -69,7 +68,7 @@ impl Origins {
             | Node::Environment => (0, 0),
             Node::Ambient => (0, self.ambient),
             Node::Light(index) => {
-                let each = table::numbers(LIGHT);
+                let each = LIGHT.numbers();
                 let offset = index.saturating_mul(each);
                 let left = self.lights.1.saturating_sub(offset);
                 (self.lights.0.saturating_add(offset), left.min(each))
@@ -96,8 +95,10 @@ impl Origins {
     }
 
     pub(super) fn view_fields(&self) -> Vec<FieldSpans> {
-        let parts = self.view.map_or([None; VIEW.len()], |view| view.parts);
-        VIEW.iter()
+        let parts = self
+            .view
+            .map_or([None; VIEW.slots.len()], |view| view.parts);
+        VIEW.fields()
             .zip(parts)
             .map(|(field, part)| {
                 let spans = part.map(|spans| spans[..field.kind.components()].to_vec());
@@ -114,7 +115,7 @@ impl Origins {
         if let Some(offset) = token.checked_sub(self.lights.0)
             && offset < self.lights.1
         {
-            return Some(Node::Light(offset / table::numbers(LIGHT)));
+            return Some(Node::Light(offset / LIGHT.numbers()));
         }
         let after = self
             .objects

@@ -6,13 +6,12 @@
 use std::ops::Range;
 
 use super::origins::{ObjectPlace, Origins};
-use super::table::{AMBIENT, LIGHT, ShapeKind};
+use super::schema::{AMBIENT, LIGHT, ShapeKind};
 use super::tree::{Tokens, Window};
 use crate::record::{Record, what};
 use crate::report::{Name, no_number, number, quoted};
-use crate::slot::At;
-use crate::table;
-use crate::table::Field;
+use crate::schema;
+use crate::schema::Field;
 use scene::{Light, Material, Object, Rgb};
 use text::{Diagnostic, Findings, Severity, Span, counted, is_integer, parse_number};
 
@@ -131,14 +130,14 @@ impl<'a> Reader<'a> {
     /// first object.
     pub(super) fn header(&mut self) -> Option<Count> {
         let mut numbers = Numbers::default();
-        let ambient = self.record(Name::Ambient, AMBIENT.iter(), &mut numbers);
+        let ambient = self.record(Name::Ambient, AMBIENT.fields(), &mut numbers);
         self.origins.ambient = ambient.values.len();
-        if ambient.values.len() < table::numbers(AMBIENT) {
-            self.short(&ambient, AMBIENT.iter());
+        if ambient.values.len() < AMBIENT.numbers() {
+            self.short(&ambient, AMBIENT.fields());
             self.at += self.run(None).len;
             return None;
         }
-        self.ambient = const { At::<3>::of(AMBIENT, "colour") }.vector(ambient.values);
+        self.ambient = const { AMBIENT.at("colour") }.vector(ambient.values);
         let lights = self.count("nLights");
         let at_end = self.at == self.tokens.end();
         let lights_known = self.lights(lights);
@@ -150,7 +149,7 @@ impl<'a> Reader<'a> {
 
     /// Reads the lights; returns whether the number of objects follows where it should.
     fn lights(&mut self, count: Option<Count>) -> bool {
-        let each = table::numbers(LIGHT);
+        let each = LIGHT.numbers();
         let due = count.map(|count| {
             usize::try_from(count.declared).map_or(usize::MAX, |lights| lights.saturating_mul(each))
         });
@@ -174,11 +173,11 @@ impl<'a> Reader<'a> {
         while self.at < end {
             let mut numbers = Numbers::default();
             let name = Name::Light((self.at - first) / each);
-            let light = self.record(name, LIGHT.iter(), &mut numbers);
+            let light = self.record(name, LIGHT.fields(), &mut numbers);
             // Without objects there is no scene for them.
             if run.object.is_some() && light.values.len() == each {
-                let position = const { At::<3>::of(LIGHT, "position") }.vector(light.values);
-                let colour = const { At::<3>::of(LIGHT, "colour") }.vector(light.values);
+                let position = const { LIGHT.at("position") }.vector(light.values);
+                let colour = const { LIGHT.at("colour") }.vector(light.values);
                 self.lights.push(Light::point(position, colour));
             }
         }
@@ -191,7 +190,7 @@ impl<'a> Reader<'a> {
 
     /// Reports a declared number of lights that differs from the lights that follow.
     fn wrong_lights(&mut self, count: Count, numbers: usize, run: &Run) {
-        let each = table::numbers(LIGHT);
+        let each = LIGHT.numbers();
         let (whole, rest) = (numbers / each, numbers % each);
         let place = match run.object {
             Some(word) => format!("before {}", quoted(word.of(self.text))),
@@ -231,7 +230,7 @@ impl<'a> Reader<'a> {
 
     /// Reads a declared count; `None`, with an error, if there is none.
     fn count(&mut self, key: &str) -> Option<Count> {
-        let expected = table::Range::Count.words();
+        let expected = schema::Range::Count.words();
         let Some(token) = self.token() else {
             let end = self.end();
             if self.is_at_end() {
@@ -252,7 +251,7 @@ impl<'a> Reader<'a> {
         }
         self.at += 1;
         let problem = match parse_number(word) {
-            Ok(value) if table::Range::Count.contains(value) && is_integer(word) => {
+            Ok(value) if schema::Range::Count.contains(value) && is_integer(word) => {
                 // A count beyond the integers saturates: no text holds that many.
                 let declared = value as u64;
                 return Some(Count { token, declared });

@@ -1,8 +1,7 @@
 //! The roles that the leaves of a `.ray` text play.
 
-use super::table::{AMBIENT, LIGHT, ShapeKind};
+use super::schema::{AMBIENT, LIGHT, ShapeKind};
 use crate::roles::{ANYWHERE, Role, Roles, role};
-use crate::table::numbers;
 use text::Span;
 
 /// The roles of leaves: a number's is its place in its object, light or colour. `at_ends` tells
@@ -17,7 +16,7 @@ pub(super) fn roles(text: &str, leaves: &[Span], [at_start, at_end]: [bool; 2]) 
     for (at, leaf) in tokens() {
         let word = leaf.of(text);
         if let Some(kind) = ShapeKind::of_word(word) {
-            place = Some((0, numbers(kind.geometry())));
+            place = Some((0, kind.geometry()));
             continue;
         }
         match &mut place {
@@ -46,7 +45,7 @@ pub(super) fn roles(text: &str, leaves: &[Span], [at_start, at_end]: [bool; 2]) 
 
 /// The role of a number before the first object, of so many.
 fn role_of_head(number: usize, count: usize) -> Role {
-    let (ambient, each) = (numbers(AMBIENT), numbers(LIGHT));
+    let (ambient, each) = (AMBIENT.numbers(), LIGHT.numbers());
     let is_complete = count
         .checked_sub(ambient + 2)
         .is_some_and(|lights| lights % each == 0);

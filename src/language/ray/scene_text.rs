@@ -1,12 +1,12 @@
 //! What a `.ray` text says: its [`SceneText`].
 
 use super::origins::distribute;
-use super::table::{AMBIENT, LIGHT};
+use super::schema::{AMBIENT, LIGHT};
 use super::tree::comment_of_line;
 use super::{Source, incremental, lower, memory_estimate, view};
 use crate::rendering::Around;
 use crate::report::Name;
-use crate::table::{self, Field};
+use crate::schema::Field;
 use crate::view::Numbers;
 use crate::written::Since;
 use crate::{Before, FieldSpans, Lowered, Node, Nodes, SceneText, Visibility};
@@ -41,7 +41,7 @@ impl SceneText for Source {
         let origins = &self.origins;
         Nodes {
             view: true,
-            ambient: origins.ambient == table::numbers(AMBIENT),
+            ambient: origins.ambient == AMBIENT.numbers(),
             lights: origins.light_count(),
             objects: origins.objects.len(),
             ..Nodes::default()
@@ -64,8 +64,8 @@ impl SceneText for Source {
         match node {
             Node::View => origins.view_fields(),
             Node::Render => origins.render_fields(&self.text),
-            Node::Ambient => distribute(tokens, AMBIENT.iter()),
-            Node::Light(_) => distribute(tokens, LIGHT.iter()),
+            Node::Ambient => distribute(tokens, AMBIENT.fields()),
+            Node::Light(_) => distribute(tokens, LIGHT.fields()),
             Node::Object(index) => origins
                 .objects
                 .get(index)

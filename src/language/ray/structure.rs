@@ -1,12 +1,14 @@
 //! What deleting, copying and moving mean in a `.ray` text: its counts follow.
 
-use super::table::{AMBIENT, LIGHT, ShapeKind};
+use super::schema::{AMBIENT, LIGHT, SCHEMA, ShapeKind};
 use super::tree::{self, comment_of_line};
 use rayon::iter::ParallelIterator;
 
 use super::{Source, add, roles};
+use crate::engine::motion::Moves;
+use crate::form::Form;
+use crate::schema::{Record, Schema};
 use crate::structure::{Block, adapted, deletions, follows, line_before, lines, lines_after, pair};
-use crate::table;
 use crate::view::{line_ending, line_from};
 use crate::{
     Addition, Motion, Neighbour, NewNode, Node, Placement, Pose, Roles, SceneText, StructureEdits,
@@ -107,14 +109,14 @@ impl StructureEdits for Source {
 
     fn recount(&self) -> Vec<Edit> {
         let (text, tokens) = (&*self.text, &self.tree.tokens);
-        let ambient = table::numbers(AMBIENT);
+        let ambient = AMBIENT.numbers();
         let is_object = |(_, word): &(usize, Span)| ShapeKind::of_word(word.of(text)).is_some();
         let objects: Vec<_> = tokens.words().filter(is_object).collect();
         let Some(&(first, _)) = objects.first() else {
             return Vec::new();
         };
         // Before the first object: ambient light, a count, lights, and another count.
-        let each = table::numbers(LIGHT);
+        let each = LIGHT.numbers();
         let numbers = first
             .checked_sub(ambient + 2)
             .filter(|numbers| numbers % each == 0);
@@ -190,7 +192,11 @@ impl StructureEdits for Source {
     }
 
     fn retyping(&self, node: Node, kind: &str) -> Result<Vec<Edit>, StructureError> {
-        add::retyping(self, node, kind)
+        let Node::Object(object) = node else {
+            let reason = format!("{} has only one type", self.name(node));
+            return Err(StructureError::Inexpressible(reason));
+        };
+        self.retyped(object, kind)
     }
 
     fn pose(&self, node: Node) -> Option<Pose> {
@@ -213,6 +219,27 @@ impl StructureEdits for Source {
         let mut edits = moved.collect::<Result<Vec<_>, _>>()?.concat();
         Edit::sort(&mut edits);
         Ok(edits)
+    }
+}
+
+impl Moves for Source {
+    fn schema(&self) -> &'static Schema {
+        &SCHEMA
+    }
+
+    fn object_record(&self, object: usize) -> Option<&'static Record> {
+        let place = self.origins.objects.get(object)?;
+        let is_whole = usize::from(place.numbers) == place.kind.numbers();
+        is_whole.then(|| place.kind.record())
+    }
+
+    fn respelled(
+        &self,
+        object: usize,
+        kind: &str,
+        form: &Form,
+    ) -> Result<Vec<Edit>, StructureError> {
+        add::respelled(self, object, kind, form)
     }
 }
 
@@ -317,7 +344,7 @@ fn split(text: &str) -> Result<[(String, usize); 2], StructureError> {
     let first = all.iter().find(is_keyword);
     let numbers = all.iter().take_while(|token| !is_keyword(token));
     let lights = numbers.clone().count();
-    let each = table::numbers(LIGHT);
+    let each = LIGHT.numbers();
     if all.is_empty() || lights % each != 0 {
         let reason = match lights {
             0 => "it is empty".to_owned(),

@@ -2,136 +2,68 @@
 
 use std::fmt::Write;
 
-use glam::DVec3;
-
 use super::origins::Origins;
-use super::table::VIEW;
-use crate::slot::At;
-use crate::table::{self, Field};
+use super::schema::VIEW;
+use crate::schema::Field;
+use crate::schema::position::At;
 use crate::view::{Numbers, beginning, line_ending, literal, take};
 use scene::{Camera, Focus, Lens, Size};
 use text::{Edit, Span, spell_like};
 
 /// The fields of the view.
 pub(super) fn fields() -> impl Iterator<Item = &'static Field> {
-    VIEW.iter()
+    VIEW.fields()
 }
 
-/// The content of a view comment, with defaults for missing parts.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct View {
-    pub(super) eye: DVec3,
-    pub(super) target: DVec3,
-    pub(super) up: DVec3,
-    pub(super) fov: f64,
-    pub(super) size: Size,
-}
+/// The numbers of a view without a comment, in the order of [`VIEW`], but for eye and target.
+pub(super) const DEFAULT: [f64; VIEW.numbers()] = [
+    0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 45.0, 800.0, 600.0,
+];
 
-const EYE: At<3> = At::of(VIEW, "eye");
-const TARGET: At<3> = At::of(VIEW, "target");
-const UP: At<3> = At::of(VIEW, "up");
-const FOV: At<1> = At::of(VIEW, "fov");
-const SIZE: At<2> = At::of(VIEW, "size");
-
-impl View {
-    /// Defaults for missing parts, except eye and target.
-    const DEFAULT: Self = Self {
-        eye: DVec3::ZERO,
-        target: DVec3::ZERO,
-        up: DVec3::Y,
-        fov: 45.0,
-        size: Size {
-            width: 800,
-            height: 600,
-        },
-    };
-
-    /// The camera it describes.
-    pub(super) fn camera(&self) -> Camera {
-        Camera {
-            eye: self.eye,
-            target: self.target,
-            up: self.up,
-            lens: Lens::Perspective(self.fov),
-            pixel_aspect: 1.0,
-            depths: Camera::ALL_DEPTHS,
-            focus: Focus::PINHOLE,
-            size: self.size,
-        }
-    }
-
-    /// The view that describes a camera.
-    fn of(camera: &Camera) -> Self {
-        let (Lens::Perspective(fov) | Lens::Orthographic(fov)) = camera.lens;
-        Self {
-            eye: camera.eye,
-            target: camera.target,
-            up: camera.up,
-            fov,
-            size: camera.size,
-        }
-    }
-
-    /// The view with these numbers, in the order of [`VIEW`].
-    fn from_numbers(numbers: &[f64]) -> Self {
-        let [width, height] = SIZE.get(numbers);
-        Self {
-            eye: EYE.vector(numbers),
-            target: TARGET.vector(numbers),
-            up: UP.vector(numbers),
-            fov: FOV.number(numbers),
-            size: Size {
-                width: width as u32,
-                height: height as u32,
-            },
-        }
-    }
-
-    /// The view with these parts, each the numbers of its field in [`VIEW`], or defaults.
-    pub(super) fn from_parts<'p>(parts: impl Iterator<Item = Option<&'p [f64]>>) -> Self {
-        let mut numbers = Self::DEFAULT.numbers();
-        let mut rest = &mut numbers[..];
-        for (field, part) in VIEW.iter().zip(parts) {
-            let (own, behind) = rest.split_at_mut(field.kind.components());
-            if let Some(part) = part {
-                own.copy_from_slice(part);
-            }
-            rest = behind;
-        }
-        Self::from_numbers(&numbers)
-    }
-
-    /// The numbers of the view, in the order of [`VIEW`].
-    fn numbers(&self) -> Numbers {
-        let mut numbers = vec![0.0; table::numbers(VIEW)];
-        EYE.put(&mut numbers, self.eye.into());
-        TARGET.put(&mut numbers, self.target.into());
-        UP.put(&mut numbers, self.up.into());
-        FOV.put(&mut numbers, [self.fov]);
-        let Size { width, height } = self.size;
-        SIZE.put(&mut numbers, [width.into(), height.into()]);
-        numbers
-    }
-}
+pub(super) const EYE: At<3> = VIEW.at("eye");
+pub(super) const TARGET: At<3> = VIEW.at("target");
+const UP: At<3> = VIEW.at("up");
+pub(super) const FOV: At<1> = VIEW.at("fov");
+const SIZE: At<2> = VIEW.at("size");
 
 /// The numbers of a camera, in the order of [`VIEW`].
 pub(super) fn numbers(camera: &Camera) -> Numbers {
-    View::of(camera).numbers()
+    let mut numbers = DEFAULT.to_vec();
+    EYE.put(&mut numbers, camera.eye.into());
+    TARGET.put(&mut numbers, camera.target.into());
+    UP.put(&mut numbers, camera.up.into());
+    let (Lens::Perspective(fov) | Lens::Orthographic(fov)) = camera.lens;
+    FOV.put(&mut numbers, [fov]);
+    let Size { width, height } = camera.size;
+    SIZE.put(&mut numbers, [width.into(), height.into()]);
+    numbers
 }
 
 /// The camera described by these numbers.
-pub(super) fn camera(numbers: &Numbers) -> Camera {
-    View::from_numbers(numbers).camera()
+pub(super) fn camera(numbers: &[f64]) -> Camera {
+    let [width, height] = SIZE.get(numbers).map(|side| side as u32);
+    Camera {
+        eye: EYE.vector(numbers),
+        target: TARGET.vector(numbers),
+        up: UP.vector(numbers),
+        lens: Lens::Perspective(FOV.number(numbers)),
+        pixel_aspect: 1.0,
+        depths: Camera::ALL_DEPTHS,
+        focus: Focus::PINHOLE,
+        size: Size { width, height },
+    }
 }
 
 /// Returns the edits that change the text's camera from `before` to `camera`.
 pub(super) fn edits(text: &str, origins: &Origins, before: &Camera, camera: &Camera) -> Vec<Edit> {
     let (old, new) = (numbers(before), numbers(camera));
-    let parts = origins.view.map_or([None; VIEW.len()], |view| view.parts);
+    let parts = origins
+        .view
+        .map_or([None; VIEW.slots.len()], |view| view.parts);
     let mut edits = Vec::new();
     let mut missing = String::new();
     let (mut old, mut new) = (&old[..], &new[..]);
-    for (field, part) in VIEW.iter().zip(parts) {
+    for (field, part) in VIEW.fields().zip(parts) {
         let (old, new) = (take(&mut old, field), take(&mut new, field));
         if let Some(spans) = part {
             let changed = old

@@ -5,24 +5,23 @@
 use glam::DVec3;
 
 use super::origins::ViewPlace;
-use super::table::VIEW;
+use super::schema::VIEW;
 use super::tree::{self, Tokens, after_key, comment_of_line};
-use super::view::View;
+use super::view;
 use crate::camera::{CameraSpans, check, default_eye_and_target};
 use crate::record::what;
 use crate::rendering::{RenderPlace, given_again, read_comment};
 use crate::report::{Name, no_number, number, quoted};
-use crate::slot::index_of;
-use crate::table::{Field, Kind};
+use crate::schema::{Field, Kind};
 use crate::words::Words;
 use geometry::{Aabb, normalise};
 use scene::Camera;
 use text::{Diagnostic, Findings, Severity, Span, is_integer, parse_number};
 
 /// Indices in [`VIEW`].
-const EYE: usize = index_of(VIEW, "eye");
-const TARGET: usize = index_of(VIEW, "target");
-const UP: usize = index_of(VIEW, "up");
+const EYE: usize = VIEW.slot("eye");
+const TARGET: usize = VIEW.slot("target");
+const UP: usize = VIEW.slot("up");
 
 /// The direction of the default eye from the centre of the scene.
 const DEFAULT_SIDE: DVec3 = DVec3::new(0.4, 0.3, 1.0);
@@ -31,7 +30,7 @@ const DEFAULT_SIDE: DVec3 = DVec3::new(0.4, 0.3, 1.0);
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ViewComment {
     comment: Span,
-    parts: [Option<FieldNumbers>; VIEW.len()],
+    parts: [Option<FieldNumbers>; VIEW.slots.len()],
 }
 
 /// The numbers of one field; the arrays are filled up to its number of components.
@@ -64,13 +63,13 @@ impl ViewComment {
     /// The span of a part, or of the whole comment if the part is missing.
     fn span(&self, part: usize) -> Span {
         self.parts[part].map_or(self.comment, |found| {
-            found.spans[0].to(found.spans[VIEW[part].kind.components() - 1])
+            found.spans[0].to(found.spans[VIEW.field(part).kind.components() - 1])
         })
     }
 }
 
 /// Whether these parts of a view include both eye and target.
-pub(super) fn has_eye_and_target<T>(parts: &[Option<T>; VIEW.len()]) -> bool {
+pub(super) fn has_eye_and_target<T>(parts: &[Option<T>; VIEW.slots.len()]) -> bool {
     parts[EYE].is_some() && parts[TARGET].is_some()
 }
 
@@ -140,14 +139,14 @@ fn read(
     body: Span,
     report: &mut Findings,
 ) -> Result<ViewComment, Diagnostic> {
-    let mut parts = [None; VIEW.len()];
+    let mut parts = [None; VIEW.slots.len()];
     let mut rest = Words::new(text, body);
     while let Some(key) = rest.next() {
         let word = key.of(text);
-        let Some(index) = VIEW.iter().position(|field| field.key == word) else {
+        let Some(index) = VIEW.fields().position(|field| field.key == word) else {
             return Err(unknown_word(key, word));
         };
-        let field = &VIEW[index];
+        let field = VIEW.field(index);
         if parts[index].is_some() {
             let message = format!("view {word}: given twice");
             return Err(Diagnostic::warning(key, message, "each part once"));
@@ -161,7 +160,7 @@ fn unknown_word(span: Span, word: &str) -> Diagnostic {
     let message = format!("view: unknown word {}", quoted(word));
     let diagnostic = Diagnostic::warning(span, message, "eye, target, up, fov or size");
     let meant = VIEW
-        .iter()
+        .fields()
         .find(|field| field.key.eq_ignore_ascii_case(word));
     match meant {
         Some(field) => diagnostic.with_hint(format!("write `{}`", field.key)),
@@ -191,7 +190,7 @@ fn read_part(
         };
         let value = match read {
             Ok(value) => value,
-            Err(_) if VIEW.iter().any(|field| field.key == word) => return Err(missing(span)),
+            Err(_) if VIEW.fields().any(|field| field.key == word) => return Err(missing(span)),
             Err(error) => {
                 let expected = field.allowed.words();
                 let severity = Severity::Warning;
@@ -228,20 +227,26 @@ pub(super) fn camera(
     report: &mut Findings,
 ) -> Camera {
     let has = |part: usize| comment.is_some_and(|comment| comment.parts[part].is_some());
-    let mut view = View::from_parts(VIEW.iter().enumerate().map(|(at, field)| {
-        let part = comment?.parts[at].as_ref()?;
-        Some(&part.values[..field.kind.components()])
-    }));
+    let mut numbers = view::DEFAULT;
+    let mut rest = &mut numbers[..];
+    for (at, field) in VIEW.fields().enumerate() {
+        let (own, behind) = rest.split_at_mut(field.kind.components());
+        if let Some(part) = comment.and_then(|comment| comment.parts[at]) {
+            own.copy_from_slice(&part.values[..own.len()]);
+        }
+        rest = behind;
+    }
     if !(has(EYE) && has(TARGET)) {
-        let (eye, centre) = default_eye_and_target(bounds(), view.fov, DEFAULT_SIDE);
+        let fov = view::FOV.number(&numbers);
+        let (eye, centre) = default_eye_and_target(bounds(), fov, DEFAULT_SIDE);
         if !has(EYE) {
-            view.eye = eye;
+            view::EYE.put(&mut numbers, eye.into());
         }
         if !has(TARGET) {
-            view.target = centre;
+            view::TARGET.put(&mut numbers, centre.into());
         }
     }
-    let camera = view.camera();
+    let camera = view::camera(&numbers);
     let part = |part| comment.map_or(otherwise, |comment: &ViewComment| comment.span(part));
     let [eye, target] = match (has(EYE), has(TARGET)) {
         (true, true) => [part(EYE), part(TARGET)],

@@ -1,7 +1,7 @@
 //! Deleting, copying, inserting, exchanging and renaming nodes in all languages.
 
 use super::{Random, read_as};
-use crate::table::Category;
+use crate::schema::Category;
 use crate::{Language, Neighbour, Node, Source, StructureError};
 use scene::Meshes;
 use text::{Edit, apply};

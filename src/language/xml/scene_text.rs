@@ -11,7 +11,7 @@ use super::{Source, lower, memory_estimate, view};
 use crate::field_spans::{Wanted, edits};
 use crate::node::{FileKind, object_at, place_of};
 use crate::rendering::Around;
-use crate::table::{Category, Field};
+use crate::schema::{Category, Field};
 use crate::view::Numbers;
 use crate::{FieldSpans, Lowered, NamedFile, Node, Nodes, SceneText, Visibility};
 use memory::OutOfMemory;

@@ -9,8 +9,8 @@ use super::tree::{escaped, quote};
 use super::{Source, add, clashing_ids, roles};
 use crate::frame::frameless;
 use crate::roles::Roles;
+use crate::schema::Category;
 use crate::structure::{Block, deletions, follows, line_before, lines, uncreatable};
-use crate::table::Category;
 use crate::view::{line_ending, line_from};
 use crate::{
     Addition, Motion, Neighbour, NewNode, Node, Placement, Pose, SceneText, StructureEdits,

@@ -7,7 +7,7 @@ use super::origins::Origins;
 use super::table::camera::{self, PARAMETERS, index_of};
 use crate::SceneText;
 use crate::field_spans::FieldSpans;
-use crate::table::Field;
+use crate::schema::Field;
 use crate::view::{Numbers, literal, take};
 use scene::{Camera, Focus, Lens, Size};
 use text::{Edit, spell_like};

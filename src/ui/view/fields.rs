@@ -15,7 +15,7 @@ use crate::layout::marker_at;
 use crate::text_width::wrap;
 use crate::{layout, theme};
 use language::Node;
-use language::table::{Category, Kind};
+use language::schema::{Category, Kind};
 use scene::Rgb;
 use text::{counted, parse_number, without_suffix};
 

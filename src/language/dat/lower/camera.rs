@@ -4,10 +4,9 @@ use glam::DVec3;
 
 use super::Lowering;
 use crate::camera::{CameraSpans, check, default_eye_and_target};
-use crate::dat::table::RecordKind;
+use crate::dat::schema::{RESOLUTION, SCHEMA, VIEWPORT};
 use crate::dat::view::{self, View};
-use crate::report::Name;
-use crate::words::Words;
+use crate::engine::reader::Reading;
 use geometry::Aabb;
 use scene::{Camera, Lens, Object, Size, bounds};
 use text::{Diagnostic, Span};
@@ -29,71 +28,58 @@ pub(super) struct Records {
     viewport: Option<Size>,
 }
 
-impl<'a> Lowering<'a> {
-    pub(super) fn view_record(&mut self, kind: RecordKind, tokens: &Words<'a>) {
-        let name = Name::Record(match kind {
-            RecordKind::Resolution => "resolution",
-            RecordKind::Viewport => "viewport",
-            _ => "camera",
-        });
-        let line = self.line(kind, tokens, |_| name);
-        self.surplus(&line);
-        let Some(numbers) = line.numbers() else {
+impl Lowering<'_> {
+    pub(super) fn view(&mut self, read: &Reading<'_>) {
+        let Some(numbers) = read.numbers() else {
             return;
         };
-        match kind {
-            RecordKind::Resolution => {
-                let at = const { RecordKind::Resolution.at("resolution") };
-                self.camera.resolution = Some(at.get(numbers));
+        if *read.record == RESOLUTION {
+            let at = const { RESOLUTION.at("resolution") };
+            self.camera.resolution = Some(at.get(numbers));
+        } else if *read.record == VIEWPORT {
+            let at = const { VIEWPORT.at("viewport") };
+            self.viewport(at.get(numbers), &read.spans);
+        } else {
+            let spans = &read.spans;
+            let view = View::from_camera_record(numbers);
+            let [near, far] = view.depths;
+            let near = near.max(0.0);
+            if far <= near {
+                self.reader.report.error(|| {
+                    let message = "camera far: must be greater than near";
+                    let expected = format!("a number greater than {near}");
+                    Diagnostic::error(view::FAR.span(spans), message, expected)
+                });
             }
-            RecordKind::Viewport => {
-                let at = const { RecordKind::Viewport.at("viewport") };
-                self.viewport(at.get(numbers), &line.spans);
-            }
-            _ => {
-                let view = View::from_camera_record(numbers);
-                let [near, far] = view.depths;
-                let near = near.max(0.0);
-                if far <= near {
-                    self.report.error(|| {
-                        let message = "camera far: must be greater than near";
-                        let expected = format!("a number greater than {near}");
-                        Diagnostic::error(view::FAR.span(&line.spans), message, expected)
-                    });
-                }
-                let places = CameraSpans {
-                    eye: view::EYE.span(&line.spans),
-                    target: view::LOOK.span(&line.spans),
-                    up: view::UP.span(&line.spans),
-                    whole: line.spans[0].to(line.spans[line.spans.len() - 1]),
-                    remedy: REMEDY,
-                };
-                self.camera.camera = Some((view, places));
-            }
+            let places = CameraSpans {
+                eye: view::EYE.span(spans),
+                target: view::LOOK.span(spans),
+                up: view::UP.span(spans),
+                whole: spans[0].to(spans[spans.len() - 1]),
+                remedy: REMEDY,
+            };
+            self.camera.camera = Some((view, places));
         }
     }
 
-    fn viewport(&mut self, [width, height]: [f64; 2], spans: &[Span]) {
+    fn viewport(&mut self, sides: [f64; 2], spans: &[Span]) {
         let most = f64::from(u32::MAX);
-        for (number, span) in [width, height].into_iter().zip(spans) {
-            if most < number {
-                self.report.error(|| {
-                    let message = format!("viewport: must be {most} at most");
-                    Diagnostic::error(*span, message, "a whole number, 1 or more")
-                });
-                return;
-            }
+        let over = sides.iter().zip(spans).find(|(side, _)| most < **side);
+        if let Some((_, span)) = over {
+            self.reader.report.error(|| {
+                let message = format!("viewport: must be {most} at most");
+                Diagnostic::error(*span, message, "a whole number, 1 or more")
+            });
+            return;
         }
-        self.camera.viewport = Some(view::size([width, height]));
+        self.camera.viewport = Some(view::size(sides));
     }
 
     /// The camera of the records, with defaults for missing ones.
     pub(super) fn camera(&mut self, objects: &[Object]) -> Camera {
-        let view = self.origins.view;
-        for (place, word) in view.iter().zip(["camera", "resolution", "viewport"]) {
-            if place.is_none() {
-                self.report.warning(|| missing(word));
-            }
+        let view = self.reader.places.view.iter().zip(SCHEMA.view());
+        for (_, record) in view.filter(|(place, _)| place.is_none()) {
+            self.reader.report.warning(|| missing(record.name));
         }
         let Records {
             camera,
@@ -107,16 +93,16 @@ impl<'a> Lowering<'a> {
         let Some((view, places)) = camera else {
             let (eye, target) = default_eye_and_target(box_around(), DEFAULT_ANGLE, DEFAULT_SIDE);
             let extent = 2.0 * libm::tan(half_angle);
-            self.origins.resolution = resolution.unwrap_or([extent / rows; 2]);
-            self.origins.focal = self.origins.resolution[1] * rows / extent;
+            self.reader.places.own.resolution = resolution.unwrap_or([extent / rows; 2]);
+            self.reader.places.own.focal = self.reader.places.own.resolution[1] * rows / extent;
             let view = View {
                 is_perspective: true,
                 eye,
                 look: target,
                 up: DVec3::Z,
-                focal: self.origins.focal,
+                focal: self.reader.places.own.focal,
                 depths: Camera::ALL_DEPTHS,
-                resolution: self.origins.resolution,
+                resolution: self.reader.places.own.resolution,
                 size,
             };
             let camera = Camera {
@@ -128,7 +114,7 @@ impl<'a> Lowering<'a> {
                 ..CameraSpans::default()
             };
             self.check_lens(&camera);
-            check(&camera, &places, &mut self.report);
+            check(&camera, &places, &mut self.reader.report);
             return camera;
         };
         let resolution = resolution.unwrap_or_else(|| {
@@ -139,8 +125,8 @@ impl<'a> Lowering<'a> {
             };
             [height / rows; 2]
         });
-        self.origins.resolution = resolution;
-        self.origins.focal = view.focal;
+        self.reader.places.own.resolution = resolution;
+        self.reader.places.own.focal = view.focal;
         let camera = View {
             resolution,
             size,
@@ -148,7 +134,7 @@ impl<'a> Lowering<'a> {
         }
         .camera();
         self.check_lens(&camera);
-        check(&camera, &places, &mut self.report);
+        check(&camera, &places, &mut self.reader.report);
         camera
     }
 
@@ -162,10 +148,10 @@ impl<'a> Lowering<'a> {
         if is_lens && 0.0 < width && width.is_finite() {
             return;
         }
-        let [camera, resolution, _] = self.origins.view;
-        let place = resolution.or(camera);
-        let place = place.map_or_else(|| Span::at(0), |record| self.tree.span_of(record));
-        self.report.error(|| {
+        let view = &self.reader.places.view;
+        let place = view[1].or(view[0]);
+        let place = place.map_or_else(|| Span::at(0), |record| self.reader.lines.span(record));
+        self.reader.report.error(|| {
             let message = "resolution: too large or too small for the focal length";
             Diagnostic::error(
                 place,

@@ -1,45 +1,32 @@
 //! Lights, materials, textures, and the uses of textures by materials.
 
-use std::collections::hash_map::Entry;
 use std::f64::consts::PI;
 
 use glam::DVec2;
 
 use super::Lowering;
 use crate::coefficients::Coefficients;
-use crate::dat::origins::{Place, UsePlace};
-use crate::dat::table::{LightKind, RecordKind, SHADOWS, SOURCES, TextureKind, UseKind};
-use crate::report::Name;
-use crate::slot::At;
-use crate::table::Category;
-use crate::words::Words;
+use crate::dat::schema::{
+    CHECKER, IMAGE, LIGHT, LightKind, MATERIAL, SHADOWS, SOURCES, USE_BUMP, USE_COLOUR,
+};
+use crate::engine::reader::Reading;
+use crate::schema::position::At;
 use geometry::normalise;
 use scene::{Bump, Emitter, Falloff, Light, Pattern, Side, Texture, Tinted};
 use text::Diagnostic;
 
-const LIGHT: RecordKind = RecordKind::Light;
 const POSITION: At<3> = LIGHT.at("position");
 const DIRECTION: At<3> = LIGHT.at("direction");
 
-const COLOUR: RecordKind = RecordKind::Use(UseKind::Colour);
-const BUMP: RecordKind = RecordKind::Use(UseKind::Bump);
-
-impl<'a> Lowering<'a> {
-    pub(super) fn light(&mut self, record: usize, tokens: &Words<'a>) {
-        let kind = RecordKind::Light;
-        let line = self.line(kind, tokens, |id| Name::Known("light", id, ""));
-        self.surplus(&line);
-        let Some(id) = self.define(Category::Light, &line, self.lights.len()) else {
-            return;
-        };
-        self.origins.lights.push(Place { record, kind, id });
-        let numbers = &*line.numbers_or_zeros();
-        // The errors of an invalid line were already reported.
-        let emitter = line.numbers().map_or(Some(Emitter::Ambient), emitter);
+impl Lowering<'_> {
+    pub(super) fn light(&mut self, read: &Reading<'_>) {
+        let numbers = &*read.numbers_or_zeros();
+        // The errors of an invalid record were already reported.
+        let emitter = read.numbers().map_or(Some(Emitter::Ambient), emitter);
         let emitter = emitter.unwrap_or_else(|| {
-            let span = POSITION.span(&line.spans).to(DIRECTION.span(&line.spans));
-            self.report.error(|| {
-                let message = format!("{} direction: must not be zero", line.name);
+            let span = POSITION.span(&read.spans).to(DIRECTION.span(&read.spans));
+            self.reader.report.error(|| {
+                let message = format!("{} direction: must not be zero", read.name);
                 Diagnostic::error(span, message, "the direction in which the light travels")
                     .with_hint("a position other than 0 0 0 would give the direction too")
             });
@@ -53,93 +40,51 @@ impl<'a> Lowering<'a> {
         });
     }
 
-    pub(super) fn material(&mut self, record: usize, tokens: &Words<'a>) {
-        let kind = RecordKind::Material;
-        let line = self.line(kind, tokens, |id| Name::Known("material", id, ""));
-        self.surplus(&line);
-        let Some(id) = self.define(Category::Material, &line, self.materials.len()) else {
-            return;
-        };
-        self.origins.materials.push(Place { record, kind, id });
-        let material = coefficients(&line.numbers_or_zeros());
+    pub(super) fn material(&mut self, read: &Reading<'_>) {
+        let material = coefficients(&read.numbers_or_zeros());
         self.materials.push(material.into());
     }
 
-    pub(super) fn texture(&mut self, record: usize, pattern: TextureKind, tokens: &Words<'a>) {
-        let kind = RecordKind::Texture(pattern);
-        let line = self.line(kind, tokens, |id| Name::Known("texture", id, ""));
-        self.surplus(&line);
-        let Some(id) = self.define(Category::Texture, &line, self.textures.len()) else {
-            return;
-        };
-        self.origins.textures.push(Place { record, kind, id });
-        let numbers = &*line.numbers_or_zeros();
-        let (repeat, pattern) = match pattern {
-            TextureKind::Checker => {
-                const CHECKER: RecordKind = RecordKind::Texture(TextureKind::Checker);
-                let colours = const { [CHECKER.at("first"), CHECKER.at("second")] };
-                let squares = colours.map(|at| Tinted {
-                    colour: at.vector(numbers),
-                    texture: None,
-                });
-                let side = Side::One;
-                let repeat = const { CHECKER.at("repeat") };
-                (repeat, Pattern::Checker { squares, side })
-            }
-            TextureKind::Image => {
-                let file = line.word.map_or("", |word| word.of(self.text));
-                let repeat = const { RecordKind::Texture(TextureKind::Image).at("repeat") };
-                (repeat, Pattern::Image(file.to_owned()))
-            }
+    pub(super) fn texture(&mut self, read: &Reading<'_>) {
+        let numbers = &*read.numbers_or_zeros();
+        let (repeat, pattern) = if *read.record == CHECKER {
+            let colours = const { [CHECKER.at("first"), CHECKER.at("second")] };
+            let squares = colours.map(|at| Tinted {
+                colour: at.vector(numbers),
+                texture: None,
+            });
+            let side = Side::One;
+            (
+                const { CHECKER.at("repeat") },
+                Pattern::Checker { squares, side },
+            )
+        } else {
+            let file = const { IMAGE.at::<1>("file") };
+            let file = read.spans.get(file.index()).copied().unwrap_or_default();
+            let file = file.of(self.reader.text).to_owned();
+            (const { IMAGE.at("repeat") }, Pattern::Image(file))
         };
         let repeat = DVec2::from_array(repeat.get(numbers));
         self.textures.push(Texture::repeated(repeat, pattern));
     }
 
-    pub(super) fn texture_use(&mut self, record: usize, purpose: UseKind, tokens: &Words<'a>) {
-        let kind = RecordKind::Use(purpose);
-        let line = self.line(kind, tokens, |id| Name::Known("use", id, ""));
-        self.surplus(&line);
-        let (texture, material) = match purpose {
-            UseKind::Colour => const { (COLOUR.at("texture"), COLOUR.at("mat")) },
-            UseKind::Bump => const { (BUMP.at("bump"), BUMP.at("mat")) },
-        };
-        let texture = self.resolve(Category::Texture, line.reference(texture));
-        let material = self.resolve(Category::Material, line.reference(material));
-        let (Some(texture), Some(material)) = (texture, material) else {
+    pub(super) fn texture_use(&mut self, read: &Reading<'_>) {
+        let [Some(texture), Some(material)] = read.refers else {
             return;
         };
-        let place = UsePlace {
-            record,
-            kind,
-            material,
-            texture,
+        let Some(material) = self.materials.get_mut(material) else {
+            return;
         };
-        match self.used.entry((material, purpose)) {
-            Entry::Vacant(entry) => {
-                entry.insert(self.origins.uses.len());
-                self.origins.uses.push(place);
-            }
-            Entry::Occupied(entry) => {
-                let before = std::mem::replace(&mut self.origins.uses[*entry.get()], place);
-                self.warn_of_repetition(before.record, tokens.clone().nth(1));
-            }
-        }
-        if let Some(material) = self.materials.get_mut(material) {
-            let texture = texture as u32;
-            let maps = material.maps.get_or_insert_default();
-            match purpose {
-                UseKind::Colour => {
-                    maps.ambient = Some(texture);
-                    maps.diffuse = Some(texture);
-                    maps.specular = Some(texture);
-                }
-                UseKind::Bump => {
-                    let height = const { BUMP.at("height") };
-                    let height = height.number(&line.numbers_or_zeros());
-                    maps.bump = Some(Bump { texture, height });
-                }
-            }
+        let texture = texture as u32;
+        let maps = material.maps.get_or_insert_default();
+        if *read.record == USE_COLOUR {
+            maps.ambient = Some(texture);
+            maps.diffuse = Some(texture);
+            maps.specular = Some(texture);
+        } else {
+            let height = const { USE_BUMP.at("height") };
+            let height = height.number(&read.numbers_or_zeros());
+            maps.bump = Some(Bump { texture, height });
         }
     }
 }
@@ -174,7 +119,6 @@ fn emitter(numbers: &[f64]) -> Option<Emitter> {
 
 /// The material described by these numbers.
 fn coefficients(numbers: &[f64]) -> Coefficients {
-    const MATERIAL: RecordKind = RecordKind::Material;
     let colour = const { MATERIAL.at("RGB") }.vector(numbers);
     Coefficients {
         ambient: const { MATERIAL.at("Ka") }.number(numbers) * colour,

@@ -59,7 +59,7 @@ fn numbers_are_decimal_and_finite() {
         "obj quadric ID 1 mat ID 0  1 0 0 0 1 0 0 1 0 -1F  1 0 0 1f 2\n#~ 46 warning: object 1 (quadric) J: the `f` at the end of `-1F` is\n#~ 57 warning: object 1 (quadric) cut z: the `f` at the end of `1f` is ignored",
         "obj quadric ID 1 mat ID 0  1 0 0 0 1 0 0 1 0 -1  0f\n#~ 50 error: object 1 (quadric) number of cuts: must be a whole number, not `0f`",
         "obj sphere ID 1f mat ID 0  0 0 0  1\n#~ 15 error: obj ID: must be a whole number, not `1f`",
-        "render 0f\n#~ 8 error: render: the number of objects: must be a whole number, not `0f`",
+        "render 0f\n#~ 8 error: render number of objects: must be a whole number, not `0f`",
         "viewport 8f 6\n#~ 1 warning: viewport: already given in line 3\n#~ 10 error: viewport width: `8f` is not a number",
     ]);
 }
@@ -360,18 +360,18 @@ render 1 ID 0
 #[test]
 fn declared_counts_must_match() {
     check_under(&[
-        "render 2 ID 0\n#~ 8 error: render: declares `2`, but 1 object follows in the line",
-        "render 2 ID 0 ID\n#~ 8 error: render: declares `2`, but 1 object follows in the line",
-        "render 1 0\n#~ 8 error: render: declares `1`, but 0 objects follow in the line",
+        "render 2 ID 0\n#~ 8 error: render: declares `2`, but 1 object follows",
+        "render 2 ID 0 ID\n#~ 8 error: render: declares `2`, but 1 object follows",
+        "render 1 0\n#~ 8 error: render: declares `1`, but 0 objects follow",
         "render 1 id 0\n#~ 10 error: render: expected `ID`, not `id`",
         "render 1 ID x\n#~ 13 error: render ID: must be a whole number, not `x`",
         "render -1\n#~ 8 error: render: the number of objects must be 0 or more",
-        "render all\n#~ 8 error: render: the number of objects: must be a whole number, not `all`",
-        "render 9000000000000000000 ID 0\n#~ 8 error: render: declares `9000000000000000000`, but 1 object follows in the line",
-        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 2 1 0 0 1\n#~ 49 error: object 1 (quadric): declares `2` cuts, but 1 cut follows",
-        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 1 1 0 0\n#~ 49 error: object 1 (quadric): declares `1` cuts, but 0 cuts follow",
-        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 -1 1 0 0 1\n#~ 49 error: object 1 (quadric): declares `-1` cuts",
-        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 9000000000000000000\n#~ 49 error: object 1 (quadric): declares `9000000000000000000` cuts",
+        "render all\n#~ 8 error: render number of objects: must be a whole number, not `all`",
+        "render 9000000000000000000 ID 0\n#~ 8 error: render: declares `9000000000000000000`, but 1 object follows",
+        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 2 1 0 0 1\n#~ 49 error: object 1 (quadric): declares `2`, but 1 cut follows",
+        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 1 1 0 0\n#~ 49 error: object 1 (quadric): declares `1`, but 0 cuts follow",
+        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 -1 1 0 0 1\n#~ 49 error: object 1 (quadric): the number of cuts must be 0 or more",
+        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 9000000000000000000\n#~ 49 error: object 1 (quadric): declares `9000000000000000000`, but 0 cuts follow",
         "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 some 1 0 0 1\n#~ 49 error: object 1 (quadric) number of cuts: must be a whole number, not `some`",
     ]);
 }

@@ -6,8 +6,10 @@ mod limits;
 mod meaning;
 mod pictures;
 mod properties;
+mod records;
 mod solids;
 mod views;
+mod visibility;
 mod written;
 
 use crate::tests::{read_as, shown};

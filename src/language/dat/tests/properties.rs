@@ -3,11 +3,13 @@
 use proptest::prelude::*;
 
 use super::read;
-use crate::dat::table::{HALF_SPACE, ObjectKind, Part, RecordKind, TextureKind, UseKind};
-use crate::dat::tree;
+use crate::dat::Dat;
+use crate::dat::schema::SCHEMA;
+use crate::engine::lines::Lines;
 use crate::node::Node;
-use crate::table::{Category, Field, Kind};
+use crate::schema::{Category, Field, Kind, Slot};
 use crate::tests::{Random, damage};
+use crate::written::Parse;
 use text::{Edit, Span, apply};
 
 /// The records of a random scene, each as its tokens. IDs are the indices in their category.
@@ -15,59 +17,51 @@ pub(super) fn records(random: &mut Random) -> Vec<Vec<String>> {
     let mut records = Vec::new();
     let (materials, textures) = (1 + random.below(3), random.below(3));
     let objects = 1 + random.below(6);
-    let mut say = |kind: RecordKind, heads: &[&str], id: usize, limits: [usize; 3]| {
-        let mut record: Vec<String> = heads.iter().map(|&head| head.to_owned()).collect();
+    let mut say = |name: &str, id: usize, limits: [usize; 3]| {
+        let kind = SCHEMA.records.iter().find(|record| record.name == name);
+        let kind = kind.expect("the table has it");
+        let mut record: Vec<String> = kind.heads.iter().map(|&head| head.to_owned()).collect();
         let mut axis = 0;
-        for part in kind.parts() {
-            match part {
-                Part::Word(word) => record.push((*word).to_owned()),
-                Part::Id => record.push(id.to_string()),
-                Part::Field(field) => record.extend(literals(random, field, &mut axis, limits)),
+        let mut fill = |record: &mut Vec<String>, slots: &[Slot]| {
+            for slot in slots {
+                match slot {
+                    Slot::Word(word) => record.push((*word).to_owned()),
+                    Slot::Id => record.push(id.to_string()),
+                    Slot::Field(field) => record.extend(literals(random, field, &mut axis, limits)),
+                }
             }
-        }
-        if kind == RecordKind::Object(ObjectKind::Quadric) {
-            let cuts = random.below(3);
-            record.push(cuts.to_string());
-            for _ in 0..cuts {
-                record.extend(literals(random, HALF_SPACE, &mut axis, limits));
+        };
+        fill(&mut record, kind.slots);
+        if let Some(repeat) = &kind.repeat {
+            let count = records.len() % 3;
+            record.push(count.to_string());
+            for _ in 0..count {
+                fill(&mut record, repeat.slots);
             }
         }
         records.push(record);
     };
     let limits = [materials, textures, 0];
-    say(RecordKind::Camera, &["camera"], 0, limits);
-    say(RecordKind::Resolution, &["resolution"], 0, limits);
-    say(RecordKind::Viewport, &["viewport"], 0, limits);
+    for name in ["camera", "resolution", "viewport"] {
+        say(name, 0, limits);
+    }
     for id in 0..2 {
-        say(RecordKind::Light, &["light"], id, limits);
+        say("light", id, limits);
     }
     for id in 0..materials {
-        say(RecordKind::Material, &["mat"], id, limits);
+        say("mat", id, limits);
     }
     for id in 0..textures {
-        let kind = [TextureKind::Checker, TextureKind::Image][id % 2];
-        say(RecordKind::Texture(kind), &["texture"], id, limits);
+        say(["checker", "image"][id % 2], id, limits);
     }
     if 0 < textures {
-        say(
-            RecordKind::Use(UseKind::Colour),
-            &["use", "colour"],
-            0,
-            limits,
-        );
-        say(RecordKind::Use(UseKind::Bump), &["use", "bump"], 0, limits);
+        say("use colour", 0, limits);
+        say("use bump", 0, limits);
     }
     for id in 0..objects {
-        use ObjectKind::{Box, Csg, Cylinder, Ellipsoid, Quadric, Sphere};
-        let kinds = [Sphere, Ellipsoid, Cylinder, Box, Quadric, Csg];
+        let kinds = ["sphere", "ellipsoid", "cylinder", "box", "quadric", "CSG"];
         let kind = kinds[(3 * id + materials) % if id == 0 { 5 } else { 6 }];
-        let limits = [materials, textures, id];
-        say(
-            RecordKind::Object(kind),
-            &["obj", kind.keyword()],
-            id,
-            limits,
-        );
+        say(kind, id, [materials, textures, id]);
     }
     let place = random.below(records.len() + 1);
     let list = [
@@ -148,10 +142,10 @@ fn layout_does_not_matter() {
     for _ in 0..1_000 {
         let records = records(&mut random);
         let text = laid_out(&records, &mut random);
-        let tree = tree::parse(&text);
+        let tree = Lines::<Dat>::parse(&text);
         let (_, lowered) = read(&text);
         let found = (0..tree.records.len()).map(|at| {
-            let tokens = tree.tokens_of(&text, at);
+            let tokens = tree.tokens(&text, at);
             tokens
                 .map(|token| token.of(&text).to_owned())
                 .collect::<Vec<_>>()

@@ -2,7 +2,7 @@
 //! severity, and the start of the message.
 
 use super::{read, shown, spelled};
-use crate::ray::table::ShapeKind;
+use crate::ray::schema::ShapeKind;
 use text::alternatives;
 
 /// Checks that a text has exactly the diagnostics of its `//~` notes, in order, and a scene if and

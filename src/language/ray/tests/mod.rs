@@ -2,6 +2,7 @@
 
 mod blocks;
 mod errors;
+mod kinds;
 mod meaning;
 pub(crate) mod properties;
 mod views;

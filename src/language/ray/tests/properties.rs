@@ -6,8 +6,8 @@ use proptest::prelude::*;
 use super::{read, scene};
 use crate::coefficients::Coefficients;
 use crate::node::Node;
-use crate::ray::table::{AMBIENT, LIGHT, ShapeKind, VIEW};
-use crate::table::{Field, Kind, Range};
+use crate::ray::schema::{AMBIENT, LIGHT, ShapeKind, VIEW};
+use crate::schema::{Field, Kind, Range};
 use crate::tests::{Random, damage};
 use geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, Sphere};
 use scene::{Camera, Lens, Light, Material, Materials, Object, Objects, Scene, Setting, Size};
@@ -56,14 +56,14 @@ impl Model {
                 })
                 .collect()
         };
-        let mut view = say(random, &mut VIEW.iter());
+        let mut view = say(random, &mut VIEW.fields());
         view.retain(|_| random.below(2) == 0);
         let mut nodes = vec![
             (Node::View, None, view),
-            (Node::Ambient, None, say(random, &mut AMBIENT.iter())),
+            (Node::Ambient, None, say(random, &mut AMBIENT.fields())),
         ];
         for index in 0..=random.below(3) {
-            nodes.push((Node::Light(index), None, say(random, &mut LIGHT.iter())));
+            nodes.push((Node::Light(index), None, say(random, &mut LIGHT.fields())));
         }
         for index in 0..=random.below(4) {
             let kind = ShapeKind::ALL[random.below(ShapeKind::ALL.len())];

@@ -13,7 +13,7 @@ pub(super) use window::Window;
 
 /// The tokens of a text. Comments are found in the text on demand.
 #[derive(Clone, Debug, Default)]
-pub struct Tree {
+pub(crate) struct Tree {
     /// Words and numbers, and the places of comments with a key.
     pub tokens: Tokens,
 }
@@ -25,7 +25,7 @@ pub(super) fn parse(text: &str) -> Tree {
 
 impl Tree {
     /// Tokens and whole comments, in order.
-    pub fn leaves(&self, text: &str) -> Vec<Span> {
+    pub(crate) fn leaves(&self, text: &str) -> Vec<Span> {
         let mut leaves = self.tokens.range(0..self.tokens.len());
         leaves.extend(comments(text));
         leaves.sort_unstable();

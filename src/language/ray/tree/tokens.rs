@@ -22,7 +22,7 @@ const LONG: usize = u8::MAX as usize;
 
 /// The tokens of a text, in order.
 #[derive(Clone, Debug, Default)]
-pub struct Tokens {
+pub(crate) struct Tokens {
     pieces: Vec<TokenBlock>,
 }
 
@@ -179,24 +179,19 @@ impl Tokens {
     }
 
     /// The number of tokens.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         let last = self.pieces.last();
         last.map_or(0, |piece| piece.first + piece.steps.len())
     }
 
-    /// Whether there are no tokens.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// The span of a token.
-    pub fn get(&self, token: usize) -> Option<Span> {
+    pub(crate) fn get(&self, token: usize) -> Option<Span> {
         let piece = &self.pieces[self.piece_of(token)?];
         Some(piece.get(token - piece.first))
     }
 
     /// Appends the tokens of a range, clipped to those that exist.
-    pub fn append_to(&self, spans: &mut Vec<Span>, range: Range<usize>) {
+    pub(crate) fn append_to(&self, spans: &mut Vec<Span>, range: Range<usize>) {
         let from = self.piece_of(range.start).unwrap_or(self.pieces.len());
         for piece in &self.pieces[from..] {
             if range.end <= piece.first {
@@ -214,7 +209,7 @@ impl Tokens {
     }
 
     /// The tokens of a range, clipped to those that exist.
-    pub fn range(&self, range: Range<usize>) -> Vec<Span> {
+    pub(crate) fn range(&self, range: Range<usize>) -> Vec<Span> {
         let range = range.start.min(self.len())..range.end.min(self.len());
         let mut spans = Vec::with_capacity(range.len());
         self.append_to(&mut spans, range);
@@ -222,25 +217,25 @@ impl Tokens {
     }
 
     /// The tokens that begin with a letter or outside ASCII, in order, with their indices.
-    pub fn words(&self) -> impl ParallelIterator<Item = (usize, Span)> + '_ {
+    pub(crate) fn words(&self) -> impl ParallelIterator<Item = (usize, Span)> + '_ {
         self.pieces.par_iter().flat_map_iter(|piece| piece.words(0))
     }
 
     /// Such tokens from an index on.
-    pub fn words_from(&self, token: usize) -> impl Iterator<Item = (usize, Span)> + '_ {
+    pub(crate) fn words_from(&self, token: usize) -> impl Iterator<Item = (usize, Span)> + '_ {
         let from = self.piece_of(token).unwrap_or(self.pieces.len());
         let pieces = self.pieces[from..].iter();
         pieces.flat_map(move |piece| piece.words(token.saturating_sub(piece.first)))
     }
 
     /// The start of each comment with a key.
-    pub fn keyed(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn keyed(&self) -> impl Iterator<Item = usize> + '_ {
         let pieces = self.pieces.iter();
         pieces.flat_map(|piece| piece.keyed.iter().map(|&at| piece.start + at as usize))
     }
 
     /// The index of the first token for which a condition fails that holds for exactly a prefix.
-    pub fn partition_point(&self, fulfils: impl Fn(Span) -> bool) -> usize {
+    pub(crate) fn partition_point(&self, fulfils: impl Fn(Span) -> bool) -> usize {
         partition_point(self.len(), |at| self.get(at).is_some_and(&fulfils))
     }
 

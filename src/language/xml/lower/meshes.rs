@@ -7,7 +7,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::Lowering;
 use super::surfaces::lit;
 use crate::node::Node;
-use crate::table::SIZES;
+use crate::schema::SIZES;
 use crate::xml::origins::{NamedPlace, What};
 use geometry::{Instance, Shape};
 use obj::{Edges, Finding, Map, Model};

@@ -5,7 +5,7 @@ use glam::{DAffine3, DVec3};
 use super::Lowering;
 use crate::form::rotation;
 use crate::report::quoted;
-use crate::table::{Range, SIZES};
+use crate::schema::{Range, SIZES};
 use crate::xml::origins::Role;
 use crate::xml::table::ObjectKind;
 use geometry::{Affine, Ellipsoid, Plane, Shape, Solid, Sphere, normalise};

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Lowering;
 use crate::report::{number_of, out_of_range};
-use crate::table::{Field, Kind};
+use crate::schema::{Field, Kind};
 use crate::xml::table::{Attributes, Extra, Parameter};
 use text::{Diagnostic, Findings, Span, is_integer};
 

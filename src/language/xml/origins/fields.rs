@@ -5,7 +5,7 @@ use super::{Origins, Role};
 use crate::field_spans::{FieldSpans, Implicit, ImplicitAttribute, Insertion};
 use crate::node::Node;
 use crate::rendering;
-use crate::table::Field;
+use crate::schema::Field;
 use crate::xml::table::{
     Attributes, BACKGROUND, CHECKER, ENVIRONMENT, LIGHT_WORDS, MATERIAL_WORDS, OBJECT, Parameter,
     TEXTURE, Texturing, Word, camera,

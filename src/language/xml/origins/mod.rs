@@ -13,7 +13,7 @@ use scene::Transfer;
 /// The places of everything lowered, as indices of elements and attributes: valid only with the
 /// tree they were made from.
 #[derive(Clone, Debug, Default)]
-pub struct Origins {
+pub(crate) struct Origins {
     /// The role of each element.
     pub(super) roles: Vec<Role>,
     /// For each element, the element of the node it belongs to; 0 for none.

@@ -1,8 +1,8 @@
 //! The parameters of a camera.
 
 use super::{Parameter, Word, ZERO, at_least_0, word};
-use crate::slot::is_same;
-use crate::table::{Field, Kind, Range};
+use crate::schema::position::is_same;
+use crate::schema::{Field, Kind, Range};
 
 pub(in crate::xml) static POSITION: Parameter =
     Parameter::vector("position", ZERO, "The position of the camera.");

@@ -1,7 +1,7 @@
 //! The parameters of materials.
 
 use super::{Extra, HALF, Parameter, ZERO, at_least_0};
-use crate::table::{Field, Range};
+use crate::schema::{Field, Range};
 
 pub(in crate::xml) static DIFFUSE: Parameter =
     Parameter::colour("diffuse", HALF, "The colour of diffuse reflection.").textured();

@@ -6,7 +6,7 @@ mod kinds;
 pub(super) mod lights;
 pub(super) mod materials;
 
-use crate::table::{Category, Field, Kind, Range};
+use crate::schema::{Category, Field, Kind, Range};
 pub(super) use kinds::{LightKind, MaterialKind, ObjectKind};
 use scene::Transfer;
 

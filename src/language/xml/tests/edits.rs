@@ -3,7 +3,7 @@
 use super::{EXAMPLE, around, read};
 use crate::field_spans::FieldSpans;
 use crate::node::Node;
-use crate::table::Kind;
+use crate::schema::Kind;
 use crate::tests::Random;
 use scene::{Camera, Lens, Size};
 use text::{Edit, apply, parse_number};

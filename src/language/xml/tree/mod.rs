@@ -19,7 +19,7 @@ use text::{Diagnostic, Span};
 
 /// The elements and comments of a text, each in text order.
 #[derive(Clone, Debug, Default)]
-pub struct Tree {
+pub(crate) struct Tree {
     /// Elements, in the order of their start tags: each precedes its descendants.
     pub elements: Vec<Element>,
     /// The attributes of all elements.
@@ -36,7 +36,7 @@ pub struct Tree {
 
 /// An element.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Element {
+pub(crate) struct Element {
     /// Its name in the start tag.
     pub name: Span,
     /// The start tag.
@@ -62,7 +62,7 @@ pub struct Element {
 
 /// An attribute.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Attribute {
+pub(crate) struct Attribute {
     /// Its name.
     pub name: Span,
     /// The text between the quotes.
@@ -73,19 +73,19 @@ pub struct Attribute {
 
 impl Element {
     /// Whether it is an empty-element tag.
-    pub fn is_empty_tag(&self) -> bool {
+    pub(crate) fn is_empty_tag(&self) -> bool {
         self.tag == self.whole
     }
 
     /// The indices of its attributes.
-    pub fn attributes(&self) -> Range<usize> {
+    pub(crate) fn attributes(&self) -> Range<usize> {
         self.first_attribute as usize..self.end_attribute as usize
     }
 }
 
 impl Attribute {
     /// Its value, with references resolved.
-    pub fn unescaped<'t>(&'t self, text: &'t str) -> &'t str {
+    pub(crate) fn unescaped<'t>(&'t self, text: &'t str) -> &'t str {
         self.unescaped
             .as_deref()
             .unwrap_or_else(|| self.value.of(text))
@@ -94,7 +94,7 @@ impl Attribute {
 
 impl Tree {
     /// The direct children of an element, in order.
-    pub fn children(&self, parent: usize) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn children(&self, parent: usize) -> impl Iterator<Item = usize> + '_ {
         let end = self.elements.get(parent).map_or(0, |element| element.end);
         let mut next = parent + 1;
         std::iter::from_fn(move || {
@@ -105,7 +105,7 @@ impl Tree {
     }
 
     /// The first attribute of an element with this name.
-    pub fn attribute(&self, text: &str, element: usize, name: &str) -> Option<&Attribute> {
+    pub(crate) fn attribute(&self, text: &str, element: usize, name: &str) -> Option<&Attribute> {
         let own = self
             .attributes
             .get(self.elements.get(element)?.attributes());
@@ -114,7 +114,7 @@ impl Tree {
     }
 
     /// The attribute value whose text is at a span, with references resolved.
-    pub fn unescaped<'t>(&'t self, text: &'t str, value: Span) -> &'t str {
+    pub(crate) fn unescaped<'t>(&'t self, text: &'t str, value: Span) -> &'t str {
         let at = self
             .attributes
             .binary_search_by_key(&value.start(), |attribute| attribute.value.start());
@@ -125,7 +125,7 @@ impl Tree {
     }
 
     /// The innermost element whose text contains `span`.
-    pub fn element_at(&self, span: Span) -> Option<usize> {
+    pub(crate) fn element_at(&self, span: Span) -> Option<usize> {
         let holds = |element: &Element| {
             element.whole.start() <= span.start() && span.end() <= element.whole.end()
         };

@@ -8,7 +8,7 @@ use crate::app::shared::menu::{Entry, Menu, Purpose};
 use crate::app::values::colours;
 use crate::app::{Shared, select, text};
 use ::text::Edit;
-use language::table::{Category, Kind};
+use language::schema::{Category, Kind};
 use language::{FieldSpans, Node, Source};
 
 /// Opens the list of the values of the current field if it has one, otherwise starts typing a

@@ -7,7 +7,7 @@ use crate::app::values::{colours, literals};
 use crate::app::{Shared, Stride, text};
 use ::text::{parse_number, rounded, spell_like};
 use language::FieldSpans;
-use language::table::Kind;
+use language::schema::Kind;
 use scene::Rgb;
 
 /// The number of the scene's colours offered.

@@ -9,7 +9,7 @@ use super::typing::type_current;
 use crate::app::room::Row;
 use crate::app::{Shared, Stride, select};
 use crate::keymap::{Context, Key, Mode, Scope, alt, c, key, shift};
-use language::table::Kind;
+use language::schema::Kind;
 
 use Context::In;
 use KeyCode::{BackTab, Char, Enter, Esc, Left, Right, Tab};

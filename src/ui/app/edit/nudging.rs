@@ -3,7 +3,7 @@
 use crate::app::values::literals;
 use crate::app::{Shared, Stride, text};
 use ::text::parse_number;
-use language::table::{Field, Kind};
+use language::schema::{Field, Kind};
 
 /// The current component's field and its literal as shown.
 pub(super) fn current(shared: &Shared) -> Option<(&'static Field, String)> {

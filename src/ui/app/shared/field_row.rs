@@ -3,7 +3,7 @@
 use super::Shared;
 use crate::app::values::colours;
 use language::Node;
-use language::table::Field;
+use language::schema::Field;
 use scene::{Camera, Rgb};
 use text::Diagnostic;
 

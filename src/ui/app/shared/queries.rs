@@ -23,7 +23,7 @@ use crate::keymap::{Context, Line, Mode};
 use crate::layout::raster;
 use crate::listing::Listing;
 use crate::msg::Target;
-use language::table::Field;
+use language::schema::Field;
 use language::{Node, Nodes, Source};
 use render::Region;
 use scene::{Camera, Rendering, Scene, Size};

@@ -1,7 +1,7 @@
 //! The colours of fields.
 
 use super::literals::plain;
-use language::table::Kind;
+use language::schema::Kind;
 use language::{FieldSpans, Source};
 use scene::Rgb;
 use text::parse_number;

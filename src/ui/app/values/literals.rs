@@ -1,6 +1,6 @@
 //! Numbers and words as they are typed, pasted and nudged.
 
-use language::table::{Kind, Range};
+use language::schema::{Kind, Range};
 use text::{decimals, parse_number, rounded, spell_like, without_suffix};
 
 /// Adds `change`, a multiple of `step`, to a literal and spells the sum like the literal. It has

@@ -2,7 +2,7 @@
 
 use super::arithmetic::{Fault, evaluate, fault};
 use super::literals;
-use language::table::{Field, Kind};
+use language::schema::{Field, Kind};
 use text::{concise, counted, parse_number};
 
 /// Significant digits of a computed number: fewer than of an `f64`, so that no trace of binary

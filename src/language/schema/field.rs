@@ -1,8 +1,4 @@
-//! The elements of the tables of fields: kinds, ranges, steps and units.
-//!
-//! Each language has one table of the fields of each kind of node, with their order and ranges.
-//! Lowering takes its grammar from it, the editor its names, ranges and steps: no second list of
-//! the fields of an object exists. A table knows neither text nor values.
+//! Fields: kinds, ranges, steps, units, and what their numbers are in space.
 
 /// The kind of a field's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,6 +91,9 @@ pub enum Category {
 }
 
 impl Category {
+    /// All categories, in the order of their numbers.
+    pub(crate) const ALL: [Self; 4] = [Self::Light, Self::Material, Self::Texture, Self::Object];
+
     /// The noun for one of the category.
     pub const fn word(self) -> &'static str {
         match self {
@@ -218,6 +217,21 @@ impl Range {
     }
 }
 
+/// What the numbers of a field are in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Part {
+    /// Nothing.
+    None,
+    /// A point of the node: the centre, or this many half edges from it along each axis.
+    Point([f64; 3]),
+    /// The direction of an axis of the node, by its number.
+    Axis(usize),
+    /// A length along these axes: this many half edges.
+    Length(&'static [usize], f64),
+    /// A direction that turns with the node.
+    Direction,
+}
+
 /// A field of a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Field {
@@ -237,6 +251,8 @@ pub struct Field {
     pub unit: &'static str,
     /// Alternative spellings of the words of a choice, each with the word it stands for.
     pub other_spellings: &'static [(&'static str, &'static str)],
+    /// What its numbers are in space.
+    pub part: Part,
     /// A description in one sentence.
     pub doc: &'static str,
 }
@@ -291,11 +307,12 @@ impl Field {
             step: 0.1,
             unit: "",
             other_spellings: &[],
+            part: Part::None,
             doc,
         }
     }
 
-    pub(super) const fn direction(key: &'static str, doc: &'static str) -> Self {
+    pub(crate) const fn direction(key: &'static str, doc: &'static str) -> Self {
         Self {
             kind: Kind::Direction,
             step: 0.05,
@@ -303,7 +320,7 @@ impl Field {
         }
     }
 
-    pub(super) const fn colour(key: &'static str, doc: &'static str) -> Self {
+    pub(crate) const fn colour(key: &'static str, doc: &'static str) -> Self {
         Self {
             kind: Kind::Colour,
             step: 0.05,
@@ -311,7 +328,7 @@ impl Field {
         }
     }
 
-    pub(super) const fn size(key: &'static str, doc: &'static str) -> Self {
+    pub(crate) const fn size(key: &'static str, doc: &'static str) -> Self {
         Self {
             kind: Kind::Number,
             allowed: Range::Size,
@@ -321,7 +338,7 @@ impl Field {
     }
 
     /// A length that is not of a solid.
-    pub(super) const fn length(key: &'static str, doc: &'static str) -> Self {
+    pub(crate) const fn length(key: &'static str, doc: &'static str) -> Self {
         Self {
             kind: Kind::Number,
             allowed: Range::Positive,
@@ -330,7 +347,7 @@ impl Field {
         }
     }
 
-    pub(super) const fn number(
+    pub(crate) const fn number(
         key: &'static str,
         usual: Range,
         step: f64,
@@ -344,29 +361,23 @@ impl Field {
         }
     }
 
-    pub(super) const fn reading_as(self, value: f64) -> Self {
+    pub(crate) const fn reading_as(self, value: f64) -> Self {
         Self {
             reads_as: Some(value),
             ..self
         }
     }
 
-    pub(super) const fn coefficients(key: &'static str, doc: &'static str) -> Self {
+    pub(crate) const fn part(self, part: Part) -> Self {
+        Self { part, ..self }
+    }
+
+    pub(crate) const fn coefficients(key: &'static str, doc: &'static str) -> Self {
         Self {
             usual: Range::Unit,
             ..Self::colour(key, doc)
         }
     }
-}
-
-/// The total number of components of these fields.
-pub const fn numbers(fields: &[Field]) -> usize {
-    let (mut sum, mut at) = (0, 0);
-    while at < fields.len() {
-        sum += fields[at].kind.components();
-        at += 1;
-    }
-    sum
 }
 
 #[cfg(test)]

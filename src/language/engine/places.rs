@@ -1,0 +1,128 @@
+//! The places of the nodes of a text: each in one record, and further records by which it uses others.
+
+use super::Language;
+use super::identities::slots;
+use super::lines::Lines;
+use crate::field_spans::FieldSpans;
+use crate::node::Node;
+use crate::rendering::RenderPlace;
+use crate::schema::{Category, Makes, Record, Slot};
+
+/// The places of everything lowered, as indices of records: valid only with the lines they were made
+/// from.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Places<Own> {
+    /// The records of the view, in the order of the table.
+    pub(crate) view: Vec<Option<usize>>,
+    /// The comment of the render settings.
+    pub(crate) settings: Option<RenderPlace>,
+    /// The nodes of each category.
+    nodes: [Vec<Place>; 4],
+    /// The uses of nodes by others, each place once.
+    pub(crate) uses: Vec<Place>,
+    /// The list of what is drawn.
+    pub(crate) list: Option<usize>,
+    /// The drawn objects, ascending: those of the scene.
+    pub(crate) drawn: Vec<usize>,
+    /// What the language says beside its nodes.
+    pub(crate) own: Own,
+}
+
+/// The place of a node, or of its use of others.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    pub(crate) record: &'static Record,
+    /// Index of the record.
+    pub(crate) at: usize,
+    /// Its ID; 0 if it has none.
+    pub(crate) id: i64,
+    /// The indices of the nodes that its record refers to, as far as it does.
+    pub(crate) refers: [Option<usize>; 2],
+}
+
+impl Place {
+    /// The nodes it refers to.
+    pub(crate) fn references(&self) -> impl Iterator<Item = Node> + use<> {
+        let pairs = self.record.references().zip(self.refers);
+        pairs.filter_map(|(category, index)| Some(Node::of(category, index?)))
+    }
+
+    /// The nodes of a category that it refers to.
+    pub(crate) fn of(&self, category: Category) -> impl Iterator<Item = usize> + use<> {
+        let pairs = self.record.references().zip(self.refers);
+        pairs.filter_map(move |(of, index)| index.filter(|_| of == category))
+    }
+
+    /// The node that it is a use by.
+    pub(crate) fn user(&self) -> Option<Node> {
+        match self.record.makes {
+            Makes::Use(category) => self.of(category).next().map(|at| Node::of(category, at)),
+            _ => None,
+        }
+    }
+}
+
+impl<Own> Places<Own> {
+    /// The places of the nodes of a category.
+    pub(crate) fn of(&self, category: Category) -> &[Place] {
+        &self.nodes[category as usize]
+    }
+
+    /// Adds a node.
+    pub(super) fn push(&mut self, category: Category, place: Place) {
+        self.nodes[category as usize].push(place);
+    }
+
+    /// The place of a node of a category.
+    pub(crate) fn get(&self, node: Node) -> Option<&Place> {
+        let (category, index) = node.category()?;
+        self.of(category).get(index)
+    }
+
+    /// The objects.
+    pub(crate) fn objects(&self) -> &[Place] {
+        self.of(Category::Object)
+    }
+
+    /// The records of a node, with their indices.
+    pub(crate) fn records<L: Language>(
+        &self,
+        node: Node,
+    ) -> impl Iterator<Item = (usize, &'static Record)> {
+        let view = self.view.iter().zip(L::SCHEMA.view());
+        let view = view.filter_map(|(at, record)| Some(((*at)?, record)));
+        let own = self.get(node).into_iter();
+        let uses = self.uses.iter();
+        let own = own.chain(uses.filter(move |place| place.user() == Some(node)));
+        let view = view.filter(move |_| node == Node::View);
+        view.chain(own.map(|place| (place.at, place.record)))
+    }
+
+    /// The node that a record belongs to.
+    pub(crate) fn node_of(&self, record: usize) -> Option<Node> {
+        if self.view.contains(&Some(record)) {
+            return Some(Node::View);
+        }
+        let own = Category::ALL.into_iter().find_map(|category| {
+            let found = self
+                .of(category)
+                .binary_search_by_key(&record, |place| place.at);
+            Some(Node::of(category, found.ok()?))
+        });
+        own.or_else(|| self.uses.iter().find(|place| place.at == record)?.user())
+    }
+}
+
+/// Distributes the tokens of a record to its fields, until one is incomplete.
+pub(super) fn fields<L: Language>(
+    text: &str,
+    lines: &Lines<L>,
+    (at, record): (usize, &'static Record),
+) -> Vec<FieldSpans> {
+    let slots = slots(record, text, lines.tokens(text, at)).into_iter();
+    let fields = slots.filter_map(|(slot, spans)| match slot {
+        Slot::Field(field) => Some(FieldSpans::explicit(field, spans)),
+        Slot::Word(_) | Slot::Id => None,
+    });
+    fields.collect()
+}

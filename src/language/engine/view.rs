@@ -1,0 +1,88 @@
+//! The records of the view, where a camera is written into a text.
+
+use super::{Language, Source};
+use crate::field_spans::FieldSpans;
+use crate::schema::{Field, Kind, Record};
+use crate::view::{beginning, line_ending, literal, take};
+use scene::Camera;
+use text::{Edit, Span, spell_like};
+
+impl<L: Language> Source<L> {
+    /// The records of the view with their indices, if the text has them.
+    fn view(&self) -> impl Iterator<Item = (&'static Record, Option<usize>)> {
+        let known = self
+            .origins
+            .view
+            .iter()
+            .copied()
+            .chain(std::iter::repeat(None));
+        L::SCHEMA.view().zip(known)
+    }
+
+    /// The fields of the view's records, without places if their record is missing.
+    pub(super) fn view_places(&self) -> Vec<FieldSpans> {
+        let fields = self.view().flat_map(|(record, at)| {
+            let missing = |field| FieldSpans::explicit(field, Vec::new());
+            at.map_or_else(
+                || record.fields().map(missing).collect(),
+                |at| super::places::fields(&self.text, &self.tree, (at, record)),
+            )
+        });
+        fields.collect()
+    }
+
+    /// Returns the edits that change the text's camera from `before` to `camera`.
+    pub(super) fn camera_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit> {
+        let text = &*self.text;
+        let [old, new] = [before, camera].map(|camera| L::view_numbers(self, camera));
+        let mut edits = Vec::new();
+        let mut missing = String::new();
+        let (mut old, mut new) = (&old[..], &new[..]);
+        for (record, at) in self.view() {
+            let (own, behind) = old.split_at(record.numbers());
+            let (changed, rest) = new.split_at(record.numbers());
+            (old, new) = (behind, rest);
+            if let Some(at) = at {
+                let fields = record.fields();
+                let fields = fields.flat_map(|at| std::iter::repeat_n(at, at.kind.components()));
+                let spans = self.tree.tokens(text, at).skip(record.heads.len());
+                let numbers = fields.zip(spans).zip(own.iter().zip(changed));
+                let changed = numbers.filter(|(_, (old, new))| old != new);
+                edits.extend(changed.map(|((field, span), (_, &number))| Edit {
+                    span,
+                    text: respelled(span.of(text), field, number),
+                }));
+            } else if own != changed || (L::follows_lens(record) && before.lens != camera.lens) {
+                missing.push_str(&spelled(record, changed));
+                missing.push_str(line_ending(text));
+            }
+        }
+        if !missing.is_empty() {
+            edits.push(Edit {
+                span: Span::at(beginning(text)),
+                text: missing,
+            });
+        }
+        Edit::sort(&mut edits);
+        edits
+    }
+}
+
+/// Formats a number in the style of the literal it replaces, if that is a number.
+fn respelled(old: &str, field: &Field, number: f64) -> String {
+    match field.kind {
+        Kind::Choice(_) => literal(field, number),
+        _ => spell_like(old, number + 0.0),
+    }
+}
+
+/// A whole record in default style.
+fn spelled(record: &'static Record, mut numbers: &[f64]) -> String {
+    let parts = record.fields().map(|field| {
+        let own = take(&mut numbers, field);
+        let literals: Vec<_> = own.iter().map(|&number| literal(field, number)).collect();
+        literals.join(" ")
+    });
+    let parts: Vec<_> = parts.collect();
+    format!("{} {}", record.heads.join(" "), parts.join("  "))
+}
