@@ -54,7 +54,7 @@ pub use frame_numbers::{FrameNumbers, direction_of};
 pub use hit::{Crossings, Hit, Hits, Spans};
 pub use mesh::{
     ABSENT, Attribute, Instance, Mesh, MeshError, MeshLine, MeshLines, MeshParts, NearestOnLines,
-    RoughLine, SlotRun, TriangleRun, TriangleRuns,
+    RoughLine, SlotRun, Triangle, TriangleRun, TriangleRuns,
 };
 pub use outline::Detail;
 pub use patch::{Ball, Flat, Parallelograms, Patch};

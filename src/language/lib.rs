@@ -9,6 +9,7 @@ mod approximations;
 mod camera;
 pub mod coefficients;
 mod convert;
+mod cse167;
 mod dat;
 mod engine;
 mod field_spans;
@@ -68,11 +69,11 @@ pub use structure::{
     Addition, Neighbour, NewNode, Placement, Pose, StructureEdits, StructureError,
 };
 
-/// Declares the languages, one per line, by folder name, which is also the file extension. A folder
+/// Declares the languages, one per line, by folder name and file extension. A folder
 /// provides `Source`, `errors_of_beginning`, `tree_bytes`, `write`, `LEAVES_KEEP_TO_LINES`,
 /// `LOWERS_CHANGES`, `TEMPLATE` and `SKELETON`.
 macro_rules! languages {
-    ($($(#[$doc:meta])* $name:ident in $folder:ident,)+) => {
+    ($($(#[$doc:meta])* $name:ident in $folder:ident as $extension:literal,)+) => {
         /// The supported scene languages.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Language {
@@ -86,7 +87,7 @@ macro_rules! languages {
             /// The file extension, without the dot.
             pub const fn extension(self) -> &'static str {
                 match self {
-                    $(Self::$name => stringify!($folder),)+
+                    $(Self::$name => $extension,)+
                 }
             }
 
@@ -188,11 +189,13 @@ macro_rules! languages {
 
 languages! {
     /// Rice University's `.ray`: a stream of tokens.
-    Ray in ray,
+    Ray in ray as "ray",
     /// Boston University's `.dat`: one record per line.
-    Dat in dat,
+    Dat in dat as "dat",
     /// The University of Utah's `.xml`: elements with attributes.
-    Xml in xml,
+    Xml in xml as "xml",
+    /// `.test` of UCSD CSE 167, Berkeley CS 184 and edX: a command a line, which changes a state.
+    Cse167 in cse167 as "test",
 }
 
 /// A scene's text in one language, with its tree and the places of its nodes.

@@ -128,7 +128,7 @@ impl<'a> Losses<'a> {
         let source = self.source;
         let named = match source.language() {
             Language::Xml => own_name(source, node).map(Cow::Owned),
-            Language::Ray | Language::Dat => None,
+            Language::Ray | Language::Dat | Language::Cse167 => None,
         };
         let label = named.or_else(|| source.comment(node).map(Cow::Borrowed))?;
         let is_plain = !label.contains(char::is_control);

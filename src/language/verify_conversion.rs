@@ -158,9 +158,10 @@ fn glow_map(material: &Material) -> Option<u32> {
 
 fn gloss(material: &Material) -> Gloss {
     match material.highlight {
-        Highlight::Phong(gloss) | Highlight::ModifiedPhong(gloss) | Highlight::Blinn(gloss) => {
-            gloss
-        }
+        Highlight::Phong(gloss)
+        | Highlight::ModifiedPhong(gloss)
+        | Highlight::Blinn(gloss)
+        | Highlight::PlainBlinn(gloss) => gloss,
         Highlight::None | Highlight::Microfacet { .. } => Gloss::default(),
     }
 }

@@ -118,7 +118,7 @@ fn coefficients(of: Of, material: &Material, losses: &mut Losses<'_>) -> Coeffic
                 lose(&MODIFIED);
             }
         }
-        Highlight::Blinn(gloss) => {
+        Highlight::Blinn(gloss) | Highlight::PlainBlinn(gloss) => {
             found.specular = gloss.specular;
             found.exponent = NARROWER * gloss.exponent;
             if gloss.specular != Rgb::ZERO {

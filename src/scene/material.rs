@@ -47,6 +47,8 @@ pub enum Highlight {
     /// for computer synthesized pictures", 1977), times the cosine of incidence; normalised in path
     /// tracing.
     Blinn(Gloss),
+    /// As [`Highlight::Blinn`], but regardless of the angle of incidence in Whitted ray tracing.
+    PlainBlinn(Gloss),
     /// Mirror-like microfacets (Walter and others, "Microfacet models for refraction through rough
     /// surfaces", 2007) with the material's colour and index of refraction.
     Microfacet {
@@ -212,7 +214,7 @@ impl Material {
     pub fn glossy_albedo(&self) -> Rgb {
         match self.highlight {
             Highlight::ModifiedPhong(gloss) => 2.0 / 3.0 * gloss.specular,
-            Highlight::Blinn(gloss) => {
+            Highlight::Blinn(gloss) | Highlight::PlainBlinn(gloss) => {
                 let exponent = gloss.exponent.max(0.0);
                 0.5 * (exponent + 2.0) / (exponent + 4.0) * gloss.specular
             }

@@ -7,6 +7,7 @@
 mod cli;
 mod conversions;
 pub mod corpus;
+mod cse167;
 mod dat;
 #[path = "../harness/mod.rs"]
 mod harness;

@@ -24,6 +24,17 @@ pub struct Instance {
     tags: Vec<u32>,
 }
 
+/// A triangle of a mesh in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangle {
+    /// The tag of its slot, if it has its own.
+    pub tag: Option<u32>,
+    /// Its vertices, counter-clockwise seen from the front of the mesh.
+    pub corners: [DVec3; 3],
+    /// The normals there, of any length; `None` if one is missing.
+    pub normals: Option<[DVec3; 3]>,
+}
+
 /// A ray in the unit space of a mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshLine<'m> {
@@ -72,6 +83,24 @@ impl Instance {
             min: self.frame.origin() - half,
             max: self.frame.origin() + half,
         }
+    }
+
+    /// The triangles in the world: the tag of each, if it has its own, its vertices, and the normals
+    /// there, of any length, if it has all three.
+    pub fn placed_triangles(&self) -> impl Iterator<Item = Triangle> {
+        let [x, y, z] = self.frame.axes();
+        let place =
+            move |corner: DVec3| self.frame.origin() + (corner.x * x + corner.y * y + corner.z * z);
+        (0..self.mesh.len() as u32).map(move |triangle| {
+            let normals = self.normals(triangle);
+            let tag = self.tags.get(self.mesh.slot(triangle) as usize);
+            Triangle {
+                tag: tag.copied(),
+                corners: self.mesh.vertices(triangle).map(place),
+                normals: (!normals.contains(&DVec3::ZERO))
+                    .then(|| normals.map(|normal| self.frame.gradient(normal))),
+            }
+        })
     }
 
     /// The edges of its triangles, three each; of more than `most` triangles only every second,

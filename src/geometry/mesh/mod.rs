@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use super::Aabb;
 
-pub use instance::{Instance, MeshLine};
+pub use instance::{Instance, MeshLine, Triangle};
 pub use packet::{MeshLines, NearestOnLines};
 pub use runs::{RoughLine, TriangleRun, TriangleRuns};
 pub(super) use surface::gathered;

@@ -98,7 +98,7 @@ impl Instance {
     }
 
     /// The normals at the vertices of a triangle, zero unless it has all three.
-    fn normals(&self, triangle: u32) -> [DVec3; 3] {
+    pub(super) fn normals(&self, triangle: u32) -> [DVec3; 3] {
         let mesh = self.mesh();
         match mesh.normals.at(triangle, mesh.triangles[triangle as usize]) {
             [Some(a), Some(b), Some(c)] => [a, b, c],

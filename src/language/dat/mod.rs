@@ -70,6 +70,7 @@ pub(crate) struct Film {
 impl Language for Dat {
     const SCHEMA: &'static Schema = &SCHEMA;
     const COMMENTS: &'static [&'static str] = &["#", "//"];
+    const COMMENTS_BEHIND: bool = false;
     const ADDITIONS: &'static [Addition] = add::ADDITIONS;
     type Own = Film;
 

@@ -35,6 +35,9 @@ pub(super) enum LightKind {
 
 pub(super) static SCHEMA: Schema = Schema {
     extension: "dat",
+    noun: "record",
+    is_short_at_head: false,
+    any_case: false,
     records: &[
         &CAMERA, &RESOLUTION, &VIEWPORT, &LIGHT, &MATERIAL, &SPHERE, &ELLIPSOID, &CYLINDER, &BOX, &CSG, &QUADRIC,
         &CHECKER, &IMAGE, &USE_COLOUR, &USE_BUMP, &RENDER,

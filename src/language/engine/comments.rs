@@ -48,7 +48,7 @@ impl<L: Language> Source<L> {
     }
 
     /// The text that moves with a record.
-    pub(super) fn block_span(&self, record: usize) -> Span {
+    pub(crate) fn block_span(&self, record: usize) -> Span {
         self.block(record).span()
     }
 

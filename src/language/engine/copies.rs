@@ -31,8 +31,9 @@ impl Copies {
     ) -> Result<Self, StructureError> {
         let lines = Lines::<L>::parse(text);
         let foreign = |reason: String| {
+            let noun = L::SCHEMA.noun;
             let reason =
-                format!("expected records of lights, materials, textures or objects{reason}");
+                format!("expected {noun}s of lights, materials, textures or objects{reason}");
             Err(StructureError::Foreign { reason })
         };
         if lines.records.is_empty() {
@@ -42,7 +43,7 @@ impl Copies {
         for record in 0..lines.records.len() {
             let tokens = lines.tokens(text, record);
             let is_thing = kind(L::SCHEMA, text, &tokens).is_ok_and(|record| {
-                record.category().is_some() || matches!(record.makes, Makes::Use(_))
+                record.category().is_some() || matches!(record.makes, Makes::Use(_) | Makes::State)
             });
             if !is_thing {
                 let word = tokens.clone().next().unwrap_or_default();

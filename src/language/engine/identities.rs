@@ -8,7 +8,7 @@ use text::{Edit, Span};
 
 /// Why a line is of no known kind.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Unknown {
+pub(crate) enum Unknown {
     /// No record begins with this word.
     First(Span),
     /// None that begins with the first word goes on with the second, if there is one.
@@ -17,28 +17,31 @@ pub(super) enum Unknown {
 
 /// The kind of record with these tokens. Of those that begin alike, the one with the most of its
 /// words in their places.
-pub(super) fn kind(
+pub(crate) fn kind(
     schema: &Schema,
     text: &str,
     tokens: &Words<'_>,
 ) -> Result<&'static Record, Unknown> {
     let mut rest = tokens.clone();
     let first = rest.next().unwrap_or_default();
-    let records = schema.records.iter().copied();
-    let mut alike: Vec<_> = records
-        .filter(|record| record.heads[0] == first.of(text))
-        .collect();
-    if alike.iter().any(|record| 1 < record.heads.len()) {
+    let word = first.of(text);
+    let is_head = |record: &&Record| {
+        let head = record.heads[0];
+        head == word || (schema.any_case && head.eq_ignore_ascii_case(word))
+    };
+    let mut alike = schema.records.iter().copied().filter(is_head);
+    let found = alike.next().ok_or(Unknown::First(first))?;
+    let more: Vec<_> = alike.collect();
+    if more.is_empty() && found.heads.len() == 1 {
+        return Ok(found);
+    }
+    let mut alike: Vec<_> = more.into_iter().rev().chain([found]).collect();
+    if 1 < found.heads.len() {
         let second = rest.next();
         alike.retain(|record| second.is_some_and(|word| word.of(text) == record.heads[1]));
-        if alike.is_empty() {
-            return Err(Unknown::Second(first, second));
-        }
+        return alike.pop().ok_or(Unknown::Second(first, second));
     }
-    let words: Vec<_> = match alike.len() {
-        0 | 1 => Vec::new(),
-        _ => rest.take(8).map(|token| token.of(text)).collect(),
-    };
+    let words: Vec<_> = rest.map(|token| token.of(text)).collect();
     let known = |record: &&Record| {
         let mut at = 0;
         let fits = |slot: &&Slot| {
@@ -48,7 +51,6 @@ pub(super) fn kind(
         record.slots.iter().filter(fits).count()
     };
     // Of equal ones, the first.
-    alike.reverse();
     alike
         .into_iter()
         .max_by_key(known)

@@ -46,7 +46,7 @@ impl<L: Language> Parse for Lines<L> {
         let mut lines = Self::default();
         for line in self::lines(text) {
             if !is_comment::<L>(line.of(text)) {
-                lines.records.push(line);
+                lines.records.push(split::<L>(text, line).0);
             } else if render_comment(text, line).is_some() {
                 lines.renders.push(line);
             }
@@ -62,10 +62,31 @@ pub(crate) fn leaves<L: Language>(text: &str) -> Vec<Span> {
         if is_comment::<L>(line.of(text)) {
             leaves.push(line);
         } else {
-            leaves.extend(Words::new(text, line));
+            let (record, comment) = split::<L>(text, line);
+            leaves.extend(Words::new(text, record));
+            leaves.extend(comment);
         }
     }
     leaves
+}
+
+/// Splits a record from the comment behind it, if the language has such.
+fn split<L: Language>(text: &str, line: Span) -> (Span, Option<Span>) {
+    if !L::COMMENTS_BEHIND || !line.of(text).contains(L::COMMENTS[0]) {
+        return (line, None);
+    }
+    let mut words = Words::new(text, line).skip(1);
+    let comment = words.find(|word| word.of(text).starts_with(L::COMMENTS[0]));
+    match comment {
+        Some(word) => {
+            let before = Span::new(line.start(), word.start());
+            (
+                trim_end(text, before),
+                Some(Span::new(word.start(), line.end())),
+            )
+        }
+        None => (line, None),
+    }
 }
 
 /// Whether a line is a comment.

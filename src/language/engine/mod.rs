@@ -27,7 +27,7 @@ use crate::written::Written;
 use crate::{Lowered, StructureError};
 use lines::Lines;
 use places::Places;
-use scene::Camera;
+use scene::{Camera, Rendering};
 use text::Edit;
 
 /// A text with one record a line.
@@ -41,11 +41,20 @@ pub(crate) trait Language: Clone + Copy + Debug + Default + Send + Sync + 'stati
     /// What begins a comment, the usual mark first.
     const COMMENTS: &'static [&'static str];
 
+    /// Whether a comment can begin behind a record.
+    const COMMENTS_BEHIND: bool;
+
     /// The kinds of things that can be added.
     const ADDITIONS: &'static [Addition];
 
     /// What a text says beside its nodes.
     type Own: Clone + Debug + Default + Send + Sync;
+
+    /// The render settings that hold where the text's own say nothing.
+    fn defaults(own: &Self::Own) -> Rendering {
+        let _ = own;
+        Rendering::default()
+    }
 
     /// Lowers a text and finds the places of its nodes.
     fn lower(text: &str, lines: &Lines<Self>) -> (Places<Self::Own>, Lowered);
@@ -66,6 +75,24 @@ pub(crate) trait Language: Clone + Copy + Debug + Default + Send + Sync + 'stati
         name: &str,
         wish: &NewNode<'_>,
     ) -> Result<Placement, StructureError>;
+
+    /// Whether a node can be deleted, copied and moved.
+    fn is_movable(node: Node) -> bool {
+        let _ = node;
+        true
+    }
+
+    /// The records of an object, in order.
+    fn records_of(source: &Source<Self>, object: usize) -> Vec<usize> {
+        let place = source.origins.objects().get(object);
+        place.map(|place| place.at).into_iter().collect()
+    }
+
+    /// Fails if two nodes cannot exchange places, the first of which precedes the second.
+    fn check_exchange(source: &Source<Self>, nodes: [Node; 2]) -> Result<(), StructureError> {
+        let _ = (source, nodes);
+        Ok(())
+    }
 
     /// The record of a plain node with an ID; `None` if a category has none.
     fn plain(category: Category, id: i64) -> Option<String>;

@@ -36,27 +36,30 @@ pub(crate) struct Place {
     pub(crate) at: usize,
     /// Its ID; 0 if it has none.
     pub(crate) id: i64,
-    /// The indices of the nodes that its record refers to, as far as it does.
-    pub(crate) refers: [Option<usize>; 2],
+    /// The nodes that it refers to, as far as it does.
+    pub(crate) refers: [Option<Node>; 2],
 }
+
+/// The place of a node without a record of its own.
+pub(crate) const NOWHERE: usize = usize::MAX;
 
 impl Place {
     /// The nodes it refers to.
     pub(crate) fn references(&self) -> impl Iterator<Item = Node> + use<> {
-        let pairs = self.record.references().zip(self.refers);
-        pairs.filter_map(|(category, index)| Some(Node::of(category, index?)))
+        self.refers.into_iter().flatten()
     }
 
-    /// The nodes of a category that it refers to.
+    /// The indices of the nodes of a category that it refers to.
     pub(crate) fn of(&self, category: Category) -> impl Iterator<Item = usize> + use<> {
-        let pairs = self.record.references().zip(self.refers);
-        pairs.filter_map(move |(of, index)| index.filter(|_| of == category))
+        let known = self.references().filter_map(Node::category);
+        known.filter_map(move |(of, index)| (of == category).then_some(index))
     }
 
-    /// The node that it is a use by.
+    /// The node that it is a use by, or that it states a part of.
     pub(crate) fn user(&self) -> Option<Node> {
         match self.record.makes {
             Makes::Use(category) => self.of(category).next().map(|at| Node::of(category, at)),
+            Makes::State => self.references().next(),
             _ => None,
         }
     }
@@ -69,8 +72,15 @@ impl<Own> Places<Own> {
     }
 
     /// Adds a node.
-    pub(super) fn push(&mut self, category: Category, place: Place) {
+    pub(crate) fn push(&mut self, category: Category, place: Place) {
         self.nodes[category as usize].push(place);
+    }
+
+    /// Notes the node that one of a category refers to.
+    pub(crate) fn refer(&mut self, category: Category, index: usize, to: Node) {
+        if let Some(place) = self.nodes[category as usize].get_mut(index) {
+            place.refers[0] = Some(to);
+        }
     }
 
     /// The place of a node of a category.
@@ -93,6 +103,7 @@ impl<Own> Places<Own> {
         let view = view.filter_map(|(at, record)| Some(((*at)?, record)));
         let own = self.get(node).into_iter();
         let uses = self.uses.iter();
+        let own = own.filter(|place| place.at != NOWHERE);
         let own = own.chain(uses.filter(move |place| place.user() == Some(node)));
         let view = view.filter(move |_| node == Node::View);
         view.chain(own.map(|place| (place.at, place.record)))

@@ -10,7 +10,10 @@ use super::Language;
 use super::identities::{self, Unknown, kind};
 use super::lines::{Lines, render_comment};
 use super::places::{Place, Places};
-use super::wording::{miscounted, missing, no_choice, no_word, unknown_kind, unknown_record};
+use super::wording::{
+    miscounted, missing, no_choice, no_word, other_case, unknown_kind, unknown_record,
+};
+use crate::node::Node;
 use crate::record;
 use crate::record::what;
 use crate::rendering::{given_again, read_comment};
@@ -145,8 +148,13 @@ impl<'a, L: Language> Reader<'a, L> {
             Makes::List => self.places.list.replace(at),
             _ => None,
         };
-        if let Some(before) = before {
+        if let Some(before) = before.filter(|_| !record.is_replaced) {
             self.warn_of_repetition(before, last_head);
+        }
+        let (first, head) = (tokens.clone().next().unwrap_or_default(), record.heads[0]);
+        let word = first.of(self.text);
+        if word != head {
+            self.report.warning(|| other_case(first, word, head));
         }
         let mut rest = tokens.clone();
         rest.by_ref().take(record.heads.len()).for_each(drop);
@@ -210,7 +218,7 @@ impl<'a, L: Language> Reader<'a, L> {
                 let id = self.identity(token, || format!("{} ID", read.name));
                 if let (Some(id), Some(category)) = (id, read.record.category()) {
                     read.id = Some((id, token));
-                    read.name = name(read.record, category, id);
+                    read.name = name(read.record, category, (id, 0));
                 }
                 read.rest = after;
                 true
@@ -330,7 +338,10 @@ impl<'a, L: Language> Reader<'a, L> {
         self.report.error(|| {
             let found = tokens.clone().count() - record.heads.len();
             let next = missing(record, found);
-            let end = Span::at(tokens.clone().last().map_or(0, Span::end));
+            let end = match tokens.clone().next().filter(|_| L::SCHEMA.is_short_at_head) {
+                Some(head) => head,
+                None => Span::at(tokens.clone().last().map_or(0, Span::end)),
+            };
             let more = counted(record.tokens().saturating_sub(found), "more token");
             let name = read.name;
             let message = format!("{name}: the line ends where {next} is expected; {more}");
@@ -394,8 +405,12 @@ impl<'a, L: Language> Reader<'a, L> {
             record,
             at,
             id: 0,
-            refers: read.refers,
+            refers: [None; 2],
         };
+        let known = record.references().zip(read.refers);
+        for (refers, (category, index)) in place.refers.iter_mut().zip(known) {
+            *refers = index.map(|index| Node::of(category, index));
+        }
         let is_whole = place.references().count() == record.references().count();
         if let Some(category) = record.category() {
             if !is_whole {
@@ -451,11 +466,13 @@ impl<'a, L: Language> Reader<'a, L> {
     }
 }
 
-/// The name of a node with an ID: an object's tells its kind.
-pub(super) fn name(record: &Record, category: Category, id: i64) -> Name {
+/// The name of a node, by its ID or, without one, its index: an object's tells its kind.
+pub(super) fn name(record: &Record, category: Category, (id, index): (i64, usize)) -> Name {
     let kind = match category {
         Category::Object => record.name,
         _ => "",
     };
-    Name::Known(category.word(), id, kind)
+    let has_id = record.slots.iter().any(|slot| matches!(slot, Slot::Id));
+    let number = if has_id { id } else { index as i64 + 1 };
+    Name::Known(category.word(), number, kind)
 }

@@ -15,7 +15,7 @@ use crate::view::{Numbers, beginning, line_ending};
 use crate::{FieldSpans, Lowered, NamedFile, Node, Nodes, SceneText, Visibility};
 use geometry::{Affine, Shape};
 use memory::OutOfMemory;
-use scene::{Camera, Material, Meshes, Rendering};
+use scene::{Camera, Material, Meshes};
 use text::{Edit, Span};
 
 /// Estimate of the bytes of a record: itself, its place and its name, in several lists.
@@ -50,8 +50,8 @@ where
 
     fn name(&self, node: Node) -> String {
         match (self.origins.get(node), node.category()) {
-            (Some(place), Some((category, _))) => {
-                name(place.record, category, place.id).to_string()
+            (Some(place), Some((category, index))) => {
+                name(place.record, category, (place.id, index)).to_string()
             }
             _ => node.to_string(),
         }
@@ -64,7 +64,7 @@ where
             Node::Render => {
                 let (start, ending) = (beginning(&self.text), line_ending(&self.text));
                 let insertion = rendering::insertion(settings, start, "# render:", ending);
-                rendering::fields(settings, &Rendering::default(), &insertion, None)
+                rendering::fields(settings, &L::defaults(&self.origins.own), &insertion, None)
             }
             _ => {
                 let records = self.origins.records::<L>(node);

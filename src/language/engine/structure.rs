@@ -25,7 +25,8 @@ where
     Self: Moves,
 {
     fn consequence(&self, nodes: &[Node]) -> Option<String> {
-        let gone: BTreeSet<_> = nodes.iter().copied().collect();
+        let gone = nodes.iter().copied().filter(|&node| L::is_movable(node));
+        let gone: BTreeSet<_> = gone.collect();
         let users = self.users_beside(&gone);
         let said = [
             (self.dependents(&gone), "object", "will be deleted too"),
@@ -44,10 +45,13 @@ where
 
     fn removal(&self, nodes: &[Node]) -> Result<Vec<Edit>, StructureError> {
         let mut gone: BTreeSet<_> = nodes.iter().copied().collect();
+        for &node in nodes {
+            self.record(node)?;
+        }
         gone.extend(self.dependents(&gone));
         let mut records = BTreeSet::new();
         for &node in &gone {
-            records.insert(self.record(node)?);
+            records.extend(self.own_records(node)?);
         }
         let uses = self.origins.uses.iter();
         let uses = uses.filter(|place| place.references().any(|node| gone.contains(&node)));
@@ -71,10 +75,10 @@ where
     fn copied(&self, nodes: &[Node]) -> Result<String, StructureError> {
         let mut records = BTreeSet::new();
         for &node in nodes {
-            records.insert(self.record(node)?);
+            records.extend(self.own_records(node)?);
             if let Node::Object(object) = node {
                 for (_, part) in self.parts(object, usize::MAX) {
-                    records.insert(self.record(part)?);
+                    records.extend(self.own_records(part)?);
                 }
             }
             records.extend(self.origins.records::<L>(node).map(|(record, _)| record));
@@ -103,6 +107,7 @@ where
             let [user, used] = [user, used].map(|node| self.name(node));
             return Err(StructureError::Order { user, used });
         }
+        L::check_exchange(self, [used, user])?;
         let records = [self.record(used)?, self.record(user)?];
         Ok(exchange(
             &self.text,
@@ -182,6 +187,7 @@ where
 
     fn renaming(&self, node: Node, name: &str) -> Result<Vec<Edit>, StructureError> {
         let nameless = || StructureError::Name(format!("{} has no ID", self.name(node)));
+        self.called(node).ok_or_else(nameless)?;
         let (category, _) = node.category().ok_or_else(nameless)?;
         let old = self.origins.get(node).ok_or_else(nameless)?.id;
         let id = match whole(name)? {
@@ -343,7 +349,10 @@ where
         let last = last.map(|last| Node::of(copies.category().unwrap_or(Category::Object), last));
         let node = if is_kind { Some(after) } else { last };
         // The records of its uses belong to a node.
-        let own = node.and_then(|node| self.origins.records::<L>(node).map(|(at, _)| at).max());
+        let own = node.and_then(|node| {
+            let records = self.origins.records::<L>(node).map(|(at, _)| at);
+            records.chain(self.own_records(node).ok()?).max()
+        });
         own.or_else(|| self.tree.records.len().checked_sub(1))
             .max(used)
     }
@@ -360,10 +369,19 @@ where
 
     /// The record that defines a node.
     fn record(&self, node: Node) -> Result<usize, StructureError> {
-        let place = self.origins.get(node);
+        let place = self.origins.get(node).filter(|_| L::is_movable(node));
         place
             .map(|place| place.at)
             .ok_or_else(|| StructureError::Fixed(self.name(node)))
+    }
+
+    /// The records that define a node.
+    fn own_records(&self, node: Node) -> Result<Vec<usize>, StructureError> {
+        let own = self.record(node)?;
+        Ok(match node {
+            Node::Object(object) => L::records_of(self, object),
+            _ => vec![own],
+        })
     }
 }
 

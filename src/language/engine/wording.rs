@@ -9,12 +9,20 @@ use text::{Diagnostic, Span, counted, nearest_word};
 pub(super) fn unknown_record<L: Language>(text: &str, first: Span) -> Diagnostic {
     let words = L::SCHEMA.first_words();
     let word = first.of(text);
-    let message = format!("unknown record {}: the line is skipped", quoted(word));
+    let noun = L::SCHEMA.noun;
+    let message = format!("unknown {noun} {}: the line is skipped", quoted(word));
     let diagnostic = Diagnostic::warning(first, message, words.join(", "));
     let marks = L::COMMENTS.iter().rev().map(|mark| format!("`{mark}`"));
     let marks: Vec<_> = marks.collect();
     let otherwise = format!("{} begins a comment line", marks.join(" or "));
     did_you_mean(diagnostic, nearest_word(word, words), Some(&otherwise))
+}
+
+/// The warning for a word in another case.
+pub(super) fn other_case(first: Span, word: &str, head: &str) -> Diagnostic {
+    let message = format!("{} should be `{head}`", quoted(word));
+    Diagnostic::warning(first, message, format!("`{head}`"))
+        .with_hint("other readers of the format may refuse it")
 }
 
 /// The error for a line whose second word is unknown or missing.

@@ -319,9 +319,10 @@ fn holds(shape: &Shape, point: DVec3) -> bool {
 /// What a material reflects of the light of lights.
 fn reflectance(material: &Material) -> Rgb {
     let glossy = match material.highlight {
-        Highlight::Phong(gloss) | Highlight::ModifiedPhong(gloss) | Highlight::Blinn(gloss) => {
-            gloss.specular
-        }
+        Highlight::Phong(gloss)
+        | Highlight::ModifiedPhong(gloss)
+        | Highlight::Blinn(gloss)
+        | Highlight::PlainBlinn(gloss) => gloss.specular,
         Highlight::None => Rgb::ZERO,
         Highlight::Microfacet { .. } => Rgb::ONE,
     };

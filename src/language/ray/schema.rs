@@ -7,6 +7,9 @@ use text::nearest_word;
 
 pub(super) static SCHEMA: Schema = Schema {
     extension: "ray",
+    noun: "object",
+    is_short_at_head: false,
+    any_case: true,
     records: &[&VIEW, &LIGHT, &SPHERE, &ELLIPSOID, &BOX, &CYLINDER, &CONE],
 };
 

@@ -27,6 +27,8 @@ pub(crate) struct Record {
     pub(crate) slots: &'static [Slot],
     /// What follows that, as often as the record says.
     pub(crate) repeat: Option<Repeat>,
+    /// Whether a later one replaces it without a warning.
+    pub(crate) is_replaced: bool,
     /// Where its numbers place a unit solid; `None` for other records.
     pub(crate) layout: Option<Layout>,
 }
@@ -44,6 +46,8 @@ pub(crate) enum Makes {
     Use(Category),
     /// The list of the objects that are drawn, which a scene has once.
     List,
+    /// What holds for the records behind it, or anything else that is no node.
+    State,
 }
 
 /// A part of a record.
@@ -77,6 +81,12 @@ pub(crate) struct Repeat {
 pub(crate) struct Schema {
     /// The extension of its files, without the dot.
     pub(crate) extension: &'static str,
+    /// The noun for a record.
+    pub(crate) noun: &'static str,
+    /// Whether a record that breaks off is reported at its first word rather than at its end.
+    pub(crate) is_short_at_head: bool,
+    /// Whether words may be in another case, with a warning.
+    pub(crate) any_case: bool,
     /// Its records, in the order of messages and of the view.
     pub(crate) records: &'static [&'static Record],
 }
@@ -130,6 +140,7 @@ impl Record {
             makes,
             slots,
             repeat: None,
+            is_replaced: false,
             layout,
         }
     }
@@ -142,12 +153,20 @@ impl Record {
         }
     }
 
+    /// The record, which a later one replaces without a warning.
+    pub(crate) const fn replaced(self) -> Self {
+        Self {
+            is_replaced: true,
+            ..self
+        }
+    }
+
     /// The category of the nodes that it makes.
     pub(crate) const fn category(&self) -> Option<Category> {
         match self.makes {
             Makes::Node(category) => Some(category),
             Makes::Solid(_) => Some(Category::Object),
-            Makes::View | Makes::Use(_) | Makes::List => None,
+            Makes::View | Makes::Use(_) | Makes::List | Makes::State => None,
         }
     }
 

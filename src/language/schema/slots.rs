@@ -98,3 +98,8 @@ pub(crate) const fn pixels(key: &'static str) -> Slot {
         ..Field::point(key, "Width and height of the output picture.")
     })
 }
+
+/// The size of a solid.
+pub(crate) const fn size(key: &'static str, doc: &'static str) -> Slot {
+    Slot::Field(Field::size(key, doc))
+}

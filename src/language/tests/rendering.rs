@@ -6,7 +6,7 @@ use scene::{FalloffRule, Filter, GlossRule, Integrator, Meshes, RenderKey, Rende
 use text::apply;
 
 /// A scene in each language that states nothing, with the place of settings marked by `@`.
-const SCENES: [(Language, &str); 3] = [
+const SCENES: [(Language, &str); 4] = [
     (
         Language::Ray,
         "@0 0 0 1 0 5 5 1 1 1 1 sphere 0 0 0 1 0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n",
@@ -22,18 +22,22 @@ const SCENES: [(Language, &str); 3] = [
         Language::Xml,
         "<xml>\n  <scene><object type=\"sphere\"/></scene>\n  <camera><position z=\"9\"/></camera>\n@</xml>\n",
     ),
+    (
+        Language::Cse167,
+        "@camera 0 0 9  0 0 0  0 1 0  40\nsize 8 6\nsphere 0 0 0 1\n",
+    ),
 ];
 
 /// The settings as the language holds them, a line of its own.
 fn line(language: Language, settings: &[(&str, &str)]) -> String {
     let (open, close) = match language {
         Language::Ray => ("// render:", "\n"),
-        Language::Dat => ("# render:", "\n"),
+        Language::Dat | Language::Cse167 => ("# render:", "\n"),
         Language::Xml => ("  <render", "/>\n"),
     };
     let spelled = settings.iter().map(|(key, value)| match language {
         Language::Xml => format!(" {key}=\"{value}\""),
-        Language::Ray | Language::Dat => format!(" {key} {value}"),
+        Language::Ray | Language::Dat | Language::Cse167 => format!(" {key} {value}"),
     });
     [open, &spelled.collect::<String>(), close].concat()
 }
@@ -44,7 +48,12 @@ fn read(language: Language, scene: &str, lines: &str) -> (Rendering, Vec<String>
     let (_, lowered) = read_as(language, &text, &Meshes::default());
     let found = shown(&text, &lowered);
     let scene = lowered.scene.unwrap_or_else(|| panic!("{found:?}"));
-    (scene.setting.rendering, found)
+    // The default of a language is not what its text states.
+    let stated = Rendering {
+        whitted_depth: None,
+        ..scene.setting.rendering
+    };
+    (stated, found)
 }
 
 #[test]
@@ -176,9 +185,10 @@ fn the_first_settings_count_and_comments_without_a_key_are_only_comments() {
         let prose = match language {
             Language::Ray => "// render: with care, depth 9\n// render\n//render depth 7\n",
             Language::Dat => "# render: with care, depth 9\n// render: depth 7\n",
+            Language::Cse167 => "# render: with care, depth 9\n# render\n",
             Language::Xml => "  <!-- render: depth 9 -->\n",
         };
-        assert_eq!(read(language, scene, prose), (Rendering::default(), vec![]));
+        assert_eq!(read(language, scene, prose), read(language, scene, ""));
         let (settings, _) = read(language, scene, &format!("{prose}{first}"));
         assert_eq!(settings.depth, Some(3), "{language:?}");
     }

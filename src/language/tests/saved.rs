@@ -11,7 +11,7 @@ use text::{Edit, apply};
 fn commented(language: Language, words: &str) -> String {
     match language {
         Language::Ray => format!("// {words}"),
-        Language::Dat => format!("# {words}"),
+        Language::Dat | Language::Cse167 => format!("# {words}"),
         Language::Xml => format!("<!-- {words} -->"),
     }
 }

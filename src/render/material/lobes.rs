@@ -104,7 +104,9 @@ impl Lobes {
     pub(crate) fn of(point: &Point, material: &Material) -> (Self, f64) {
         let mut highlight = None;
         let (glossy, gloss) = match material.highlight {
-            Highlight::ModifiedPhong(gloss) | Highlight::Blinn(gloss)
+            Highlight::ModifiedPhong(gloss)
+            | Highlight::Blinn(gloss)
+            | Highlight::PlainBlinn(gloss)
                 if gloss.specular == Rgb::ZERO =>
             {
                 (Glossy::None, 0.0)
@@ -115,7 +117,9 @@ impl Lobes {
                 (Glossy::None, 0.0)
             }
             Highlight::ModifiedPhong(gloss) => (Glossy::Phong(gloss), strength(gloss.specular)),
-            Highlight::Blinn(gloss) => (Glossy::Blinn(gloss), strength(gloss.specular)),
+            Highlight::Blinn(gloss) | Highlight::PlainBlinn(gloss) => {
+                (Glossy::Blinn(gloss), strength(gloss.specular))
+            }
             Highlight::Microfacet {
                 roughness,
                 metallic,

@@ -33,6 +33,10 @@ pub(crate) fn reflectance(
             let highlight = power(halfway().min(1.0), gloss.exponent);
             cosine * (material.diffuse + gloss.specular * highlight)
         }
+        Highlight::PlainBlinn(gloss) => {
+            let highlight = power(halfway().min(1.0), gloss.exponent);
+            material.diffuse * cosine + gloss.specular * highlight
+        }
         Highlight::Microfacet {
             roughness,
             metallic,

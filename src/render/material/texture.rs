@@ -101,7 +101,10 @@ impl Textures {
         at.tint(&mut material.diffuse, maps.diffuse);
         match &mut material.highlight {
             Highlight::None => {}
-            Highlight::Phong(gloss) | Highlight::ModifiedPhong(gloss) | Highlight::Blinn(gloss) => {
+            Highlight::Phong(gloss)
+            | Highlight::ModifiedPhong(gloss)
+            | Highlight::Blinn(gloss)
+            | Highlight::PlainBlinn(gloss) => {
                 at.tint(&mut gloss.specular, maps.specular);
                 at.scale(&mut gloss.exponent, maps.exponent);
             }

@@ -107,6 +107,7 @@ impl<'a> Lowering<'a> {
             Makes::Node(Category::Object) | Makes::Solid(_) => self.object(&read),
             Makes::Use(_) => self.texture_use(&read),
             Makes::List => self.list(at, &read),
+            Makes::State => {}
         }
     }
 }

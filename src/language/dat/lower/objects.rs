@@ -236,11 +236,11 @@ impl Lowering<'_> {
                 tag: *material,
             }),
             Definition::Combined(operation) => {
-                let [first, second] = self.reader.places.objects()[object].refers;
+                let mut operands = operands(object);
                 Some(CsgNode::Operation {
                     operation: *operation,
-                    first: place(first?),
-                    second: place(second?),
+                    first: place(operands.next()?),
+                    second: place(operands.next()?),
                 })
             }
             Definition::Faulty => None,

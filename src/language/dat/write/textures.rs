@@ -84,9 +84,10 @@ pub(super) fn write(text: &mut String, scene: &Scene, losses: &mut Losses<'_>) {
 /// Whether one texture multiplies all colours of a material that count, and nothing else.
 fn is_alike(material: &Material, maps: &Maps) -> bool {
     let shine = match material.highlight {
-        Highlight::Phong(gloss) | Highlight::ModifiedPhong(gloss) | Highlight::Blinn(gloss) => {
-            gloss.specular
-        }
+        Highlight::Phong(gloss)
+        | Highlight::ModifiedPhong(gloss)
+        | Highlight::Blinn(gloss)
+        | Highlight::PlainBlinn(gloss) => gloss.specular,
         Highlight::None | Highlight::Microfacet { .. } => Rgb::ZERO,
     };
     let dim = material.ambient.unwrap_or(Rgb::ZERO);

@@ -104,7 +104,7 @@ pub(super) fn write(
 
 fn report(of: Of, material: &Material, scene: &Scene, losses: &mut Losses<'_>) {
     let mut lose = |loss: &Loss| losses.add(of, loss);
-    if let Highlight::Phong(gloss) = material.highlight
+    if let Highlight::Phong(gloss) | Highlight::PlainBlinn(gloss) = material.highlight
         && gloss.specular != Rgb::ZERO
     {
         lose(&PHONG);
@@ -138,7 +138,7 @@ fn one(text: &mut String, material: &Material, name: &str, emission: Tinted, sce
     let maps = material.maps.as_deref().copied().unwrap_or_default();
     let (kind, gloss) = match material.highlight {
         Highlight::Phong(gloss) | Highlight::ModifiedPhong(gloss) => ("phong", gloss),
-        Highlight::Blinn(gloss) => ("blinn", gloss),
+        Highlight::Blinn(gloss) | Highlight::PlainBlinn(gloss) => ("blinn", gloss),
         Highlight::None | Highlight::Microfacet { .. } => ("blinn", Gloss::default()),
     };
     let is_facets = matches!(material.highlight, Highlight::Microfacet { .. });

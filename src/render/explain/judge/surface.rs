@@ -280,9 +280,10 @@ fn is_lack(verdict: &Verdict, kind: RayKind) -> bool {
 pub(super) fn reflectance(material: &Material) -> f64 {
     let highlight = match material.highlight {
         Highlight::None => Rgb::ZERO,
-        Highlight::Phong(gloss) | Highlight::ModifiedPhong(gloss) | Highlight::Blinn(gloss) => {
-            gloss.specular
-        }
+        Highlight::Phong(gloss)
+        | Highlight::ModifiedPhong(gloss)
+        | Highlight::Blinn(gloss)
+        | Highlight::PlainBlinn(gloss) => gloss.specular,
         Highlight::Microfacet { metallic, .. } => facets_reflectance(material, metallic),
     };
     material.diffuse().max(highlight).abs().max_element()

@@ -1,0 +1,406 @@
+//! Lights, spheres, meshes and the piles of vertices.
+
+use std::collections::HashMap;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+
+use super::Lowering;
+use crate::cse167::schema::{
+    DIRECTIONAL, MAXVERTNORMS, MAXVERTS, POINT, QUAD_LIGHT, SPHERE, TRI, TRI_NORMAL, VERTEX,
+    VERTEX_NORMAL,
+};
+use crate::engine::places::Place;
+use crate::engine::reader::Reading;
+use crate::node::Node;
+use crate::schema::{Category, Range, Record};
+use geometry::{
+    ABSENT, Affine, Attribute, Ellipsoid, Instance, Mesh, MeshParts, Shape, Solid, Sphere,
+    normalise,
+};
+use scene::{Emitter, Faces, Falloff, Light, Material, Object, Rgb, Shadows};
+use text::{Diagnostic, Span, counted};
+
+/// Where an object is, and what it is made of.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::cse167) struct Placed {
+    /// From its space to the world.
+    pub(in crate::cse167) transform: DAffine3,
+    /// Its centre in the world.
+    pub(in crate::cse167) centre: DVec3,
+    /// The last of its commands.
+    pub(in crate::cse167) end: usize,
+}
+
+/// The piles of vertices, and the mesh that is open.
+#[derive(Debug, Default)]
+pub(super) struct Meshes {
+    plain: Pile,
+    with_normals: Pile,
+    normals: Vec<DVec3>,
+    open: Option<OpenMesh>,
+    /// The first triangle without area, and their number.
+    degenerate: Option<(Span, usize)>,
+}
+
+/// Vertices, numbered from 0.
+#[derive(Debug, Default)]
+struct Pile {
+    vertices: Vec<DVec3>,
+    /// The declared number.
+    most: Option<(f64, Span)>,
+}
+
+/// A mesh that more triangles may join.
+#[derive(Debug)]
+struct OpenMesh {
+    first: usize,
+    last: usize,
+    head: Span,
+    material: usize,
+    transform: DAffine3,
+    record: &'static Record,
+    parts: MeshParts,
+    /// The position in the mesh of each vertex used, by its pile and number.
+    used: HashMap<(bool, u32), u32>,
+}
+
+impl Lowering<'_> {
+    pub(super) fn light(&mut self, read: &Reading<'_>) {
+        self.reader.places.own.lights.push(self.state.transform);
+        let Some(numbers) = read.numbers() else {
+            self.lights.push(Light::point(DVec3::ZERO, Rgb::ZERO));
+            return;
+        };
+        let transform = self.state.transform;
+        let (vector, colour) = (DVec3::from_slice(numbers), Rgb::from_slice(&numbers[3..]));
+        let emitter = if *read.record == DIRECTIONAL {
+            let Some(toward) = normalise(transform.transform_vector3(vector)) else {
+                self.reader.report.error(|| {
+                    let span = read.spans[0].to(read.spans[2]);
+                    let message = "directional: must not be zero";
+                    Diagnostic::error(span, message, "the direction towards the light")
+                });
+                self.lights.push(Light::point(DVec3::ZERO, Rgb::ZERO));
+                return;
+            };
+            Emitter::Distant(toward)
+        } else {
+            debug_assert!(*read.record == POINT);
+            Emitter::Point {
+                position: transform.transform_point3(vector),
+                radius: 0.0,
+                falloff: Falloff {
+                    radial: self.state.attenuation,
+                    spot: None,
+                },
+            }
+        };
+        self.lights.push(Light {
+            emitter,
+            colour,
+            scale: PI,
+            shadows: Shadows::Cast,
+        });
+    }
+
+    /// Reads a sphere or an area light, whose place is noted.
+    pub(super) fn object(&mut self, at: usize, read: &Reading<'_>) {
+        // What is open was noted before it.
+        self.close_mesh_before_last();
+        let material = if *read.record == QUAD_LIGHT {
+            self.materials.all.len()
+        } else {
+            self.material()
+        };
+        let own = self.reader.places.objects().len() - 1;
+        let transform = self.state.transform;
+        let shape = read.numbers().and_then(|numbers| {
+            if *read.record == QUAD_LIGHT {
+                self.parallelogram(read, numbers)
+            } else {
+                self.sphere(read, numbers)
+            }
+        });
+        if *read.record == QUAD_LIGHT {
+            let colour = read
+                .numbers()
+                .map_or(Rgb::ZERO, |numbers| Rgb::from_slice(&numbers[9..]));
+            self.materials.all.push(Material {
+                lit: Faces::Front,
+                ..Material::unlit(colour)
+            });
+            self.materials.stated.push(None);
+        }
+        let centre = shape.as_ref().map(|shape| shape.bounds().centre());
+        self.reader
+            .places
+            .refer(Category::Object, own, Node::Material(material));
+        self.reader.places.own.objects.push(Placed {
+            transform,
+            centre: centre.unwrap_or_default(),
+            end: at,
+        });
+        if let Some(shape) = shape {
+            self.reader.places.drawn.push(own);
+            let material = material as u32;
+            self.objects.push(Object { shape, material });
+        }
+    }
+
+    fn sphere(&mut self, read: &Reading<'_>, numbers: &[f64]) -> Option<Shape> {
+        debug_assert!(*read.record == SPHERE);
+        let (centre, radius) = (DVec3::from_slice(numbers), numbers[3]);
+        let transform = self.state.transform;
+        let columns = [transform.x_axis, transform.y_axis, transform.z_axis];
+        let origin = transform.transform_point3(centre);
+        if columns == DVec3::AXES {
+            return Some(Shape::Solid(Solid::Sphere(Sphere {
+                centre: origin,
+                radius,
+            })));
+        }
+        let columns = columns.map(|column| radius * column);
+        let are_sizes = columns.map(|column| Range::Size.contains(column.length())) == [true; 3];
+        let affine = Affine::of_matrix(columns, origin).filter(|_| are_sizes);
+        if affine.is_none() {
+            self.flat(read.spans[0].to(read.spans[3]), "sphere");
+        }
+        Some(Shape::Solid(Solid::Ellipsoid(Box::new(Ellipsoid(affine?)))))
+    }
+
+    fn flat(&mut self, span: Span, name: &str) {
+        self.reader.report.error(|| {
+            let message =
+                format!("{name}: its transforms flatten it or are too large or too small");
+            Diagnostic::error(span, message, "invertible transforms")
+        });
+    }
+
+    /// Two triangles in world space, whose front is the side that shines.
+    fn parallelogram(&mut self, read: &Reading<'_>, numbers: &[f64]) -> Option<Shape> {
+        let transform = self.state.transform;
+        let [corner, first, second] = [0, 3, 6].map(|at| DVec3::from_slice(&numbers[at..]));
+        let corner = transform.transform_point3(corner);
+        let [first, second] = [first, second].map(|edge| transform.transform_vector3(edge));
+        let normal = second.cross(first);
+        if normalise(normal).is_none() || !normal.is_finite() {
+            self.reader.report.error(|| {
+                let span = read.spans[3].to(read.spans[8]);
+                let message = "quadLight: its edges are parallel or zero";
+                Diagnostic::error(span, message, "two edges in different directions")
+            });
+            return None;
+        }
+        let parts = MeshParts {
+            positions: vec![
+                corner,
+                corner + second,
+                corner + first + second,
+                corner + first,
+            ],
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            ..MeshParts::default()
+        };
+        self.mesh(parts, DAffine3::IDENTITY, read.spans[0])
+    }
+
+    fn mesh(&mut self, parts: MeshParts, transform: DAffine3, head: Span) -> Option<Shape> {
+        let columns = [transform.x_axis, transform.y_axis, transform.z_axis];
+        let affine = Affine::of_matrix(columns, transform.translation);
+        let mesh = Mesh::new(parts).ok().zip(affine);
+        let shape = mesh.map(|(mesh, affine)| {
+            Shape::Mesh(Box::new(Instance::new(Arc::new(mesh), &affine, Vec::new())))
+        });
+        let shape = shape.filter(|shape| shape.bounds().is_bounded());
+        if shape.is_none() {
+            self.flat(head, "mesh");
+        }
+        shape
+    }
+
+    /// Reads a vertex, a declared number of vertices, or a triangle.
+    pub(super) fn piles(&mut self, at: usize, head: Span, read: &Reading<'_>) {
+        let Some(numbers) = read.numbers() else {
+            return;
+        };
+        let record = read.record;
+        let pile = if [MAXVERTS, VERTEX, TRI].contains(record) {
+            &mut self.meshes.plain
+        } else {
+            &mut self.meshes.with_normals
+        };
+        if *record == MAXVERTS || *record == MAXVERTNORMS {
+            pile.most = Some((numbers[0], read.spans[0]));
+        } else if *record == VERTEX || *record == VERTEX_NORMAL {
+            pile.vertices.push(DVec3::from_slice(numbers));
+            if *record == VERTEX_NORMAL {
+                self.meshes.normals.push(DVec3::from_slice(&numbers[3..]));
+            }
+        } else if *record == TRI || *record == TRI_NORMAL {
+            let count = pile.vertices.len();
+            let bad = numbers
+                .iter()
+                .position(|&index| !(0.0..count as f64).contains(&index));
+            if let Some(bad) = bad {
+                self.reader.report.error(|| {
+                    let noun = if *record == TRI {
+                        "vertex"
+                    } else {
+                        "vertexnormal"
+                    };
+                    let message =
+                        format!("{}: there is no {noun} {} yet", record.name, numbers[bad]);
+                    let expected = match count {
+                        0 => format!("a {noun} command above"),
+                        _ => format!("the number of one above, 0 to {}", count - 1),
+                    };
+                    Diagnostic::error(read.spans[bad], message, expected)
+                });
+                return;
+            }
+            let corners = [0, 1, 2].map(|corner| numbers[corner] as u32);
+            self.triangle((at, head), record, corners);
+        }
+    }
+
+    fn triangle(
+        &mut self,
+        (at, head): (usize, Span),
+        record: &'static Record,
+        mut corners: [u32; 3],
+    ) {
+        let has_normals = *record == TRI_NORMAL;
+        let pile = if has_normals {
+            &self.meshes.with_normals
+        } else {
+            &self.meshes.plain
+        };
+        let [a, b, c] = corners.map(|corner| pile.vertices[corner as usize]);
+        let across = (b - a).cross(c - a);
+        if normalise(across).is_none() {
+            self.meshes.degenerate.get_or_insert((head, 0)).1 += 1;
+            return;
+        }
+        if has_normals {
+            let sum: DVec3 = corners
+                .iter()
+                .map(|&corner| self.meshes.normals[corner as usize])
+                .sum();
+            if sum.dot(across) < 0.0 {
+                corners.swap(1, 2);
+            }
+        }
+        let (material, transform) = (self.material(), self.state.transform);
+        let joins = |mesh: &OpenMesh| mesh.material == material && mesh.transform == transform;
+        if !self.meshes.open.as_ref().is_some_and(joins) {
+            self.close_mesh();
+            let place = Place {
+                record,
+                at,
+                id: 0,
+                refers: [Some(Node::Material(material)), None],
+            };
+            self.reader.places.push(Category::Object, place);
+            self.meshes.open = Some(OpenMesh {
+                first: at,
+                last: at,
+                head,
+                material,
+                transform,
+                record,
+                parts: MeshParts::default(),
+                used: HashMap::new(),
+            });
+        }
+        let meshes = &mut self.meshes;
+        let Some(mesh) = &mut meshes.open else {
+            return;
+        };
+        mesh.last = at;
+        let pile = if has_normals {
+            &meshes.with_normals
+        } else {
+            &meshes.plain
+        };
+        let parts = &mut mesh.parts;
+        let triangle = corners.map(|corner| {
+            *mesh.used.entry((has_normals, corner)).or_insert_with(|| {
+                parts.positions.push(pile.vertices[corner as usize]);
+                let normal = meshes.normals.get(corner as usize).filter(|_| has_normals);
+                parts
+                    .normals
+                    .values
+                    .push(normal.copied().unwrap_or(DVec3::Z));
+                parts.positions.len() as u32 - 1
+            })
+        });
+        parts.triangles.push(triangle);
+        parts
+            .normals
+            .corners
+            .push(if has_normals { triangle } else { [ABSENT; 3] });
+    }
+
+    /// Ends the open mesh, whose place was noted when it began.
+    pub(super) fn close_mesh(&mut self) {
+        self.close_mesh_at(0);
+    }
+
+    /// As [`Lowering::close_mesh`], where another object was noted behind it.
+    fn close_mesh_before_last(&mut self) {
+        self.close_mesh_at(1);
+    }
+
+    fn close_mesh_at(&mut self, behind: usize) {
+        let Some(mut mesh) = self.meshes.open.take() else {
+            return;
+        };
+        debug_assert!(mesh.first <= mesh.last && [TRI, TRI_NORMAL].contains(mesh.record));
+        if mesh
+            .parts
+            .normals
+            .corners
+            .iter()
+            .all(|corner| *corner == [ABSENT; 3])
+        {
+            mesh.parts.normals = Attribute::default();
+        }
+        let own = self.reader.places.objects().len() - 1 - behind;
+        let shape = self.mesh(mesh.parts, mesh.transform, mesh.head);
+        let centre = shape.as_ref().map(|shape| shape.bounds().centre());
+        self.reader.places.own.objects.push(Placed {
+            transform: mesh.transform,
+            centre: centre.unwrap_or_default(),
+            end: mesh.last,
+        });
+        if let Some(shape) = shape {
+            self.reader.places.drawn.push(own);
+            let material = mesh.material as u32;
+            self.objects.push(Object { shape, material });
+        }
+    }
+
+    /// Reports the vertices beyond their declared number, and the triangles without area.
+    pub(super) fn report_piles(&mut self) {
+        let piles = [&self.meshes.plain, &self.meshes.with_normals];
+        let counts = piles.map(|pile| (pile.vertices.len(), pile.most));
+        for ((count, most), name) in counts.into_iter().zip(["maxverts", "maxvertnorms"]) {
+            if let Some((most, span)) = most.filter(|(most, _)| *most < count as f64) {
+                self.reader.report.warning(|| {
+                    let message = format!("{name}: declares {most}, but there are {count}");
+                    Diagnostic::warning(span, message, "as many as there are, or more")
+                });
+            }
+        }
+        if let Some((head, count)) = self.meshes.degenerate {
+            self.reader.report.warning(|| {
+                let message = format!("{} without area", counted(count, "triangle"));
+                let verb = if count == 1 { "it is" } else { "they are" };
+                Diagnostic::warning(head, message, "three corners that are not on one line")
+                    .with_hint(format!("{verb} left out"))
+            });
+        }
+    }
+}

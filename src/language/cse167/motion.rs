@@ -1,0 +1,326 @@
+//! Motions of what `.test` places: of a sphere or a light by its own numbers, of anything else by
+//! transforms in a push and pop of its own.
+
+use glam::{DAffine3, DVec3};
+
+use super::Source;
+use super::schema::{POP, PUSH, QUAD_LIGHT, SCHEMA, SPHERE, TRI, TRI_NORMAL};
+use crate::engine::identities::kind;
+use crate::engine::motion::Moves;
+use crate::engine::places::Place;
+use crate::field_spans::FieldSpans;
+use crate::form::{Along, Form, PRECISE, rounded};
+use crate::schema::{Makes, Part, Record, Schema};
+use crate::spelling::rounded_off;
+use crate::structure::{Pose, number, replacements};
+use crate::view::{line_ending, line_from, spelled};
+use crate::{Motion, Node, SceneText, StructureError};
+use text::{Edit, Span, line_end};
+
+/// The largest relative difference between the axes of a transform that turns and scales alike in all
+/// directions.
+const ALIKE: f64 = 1e-9;
+
+impl Moves for Source {
+    fn schema(&self) -> &'static Schema {
+        &SCHEMA
+    }
+
+    fn object_record(&self, object: usize) -> Option<&'static Record> {
+        Some(self.origins.objects().get(object)?.record)
+    }
+
+    fn respelled(&self, _: usize, _: &str, _: &Form) -> Result<Vec<Edit>, StructureError> {
+        let reason = "spheres and meshes keep their type";
+        Err(StructureError::Inexpressible(reason.to_owned()))
+    }
+
+    fn pose_of(&self, node: Node) -> Option<Pose> {
+        let own = &self.origins.own;
+        let (centre, transform) = match node {
+            Node::Object(object) => {
+                let placed = own.objects.get(object)?;
+                (placed.centre, placed.transform)
+            }
+            Node::Light(light) => {
+                let transform = *own.lights.get(light)?;
+                let fields = self.fields(node);
+                let is_place = |placed: &&FieldSpans| matches!(placed.field.part, Part::Point(_));
+                let place = self.vector(fields.iter().find(is_place)?)?;
+                (transform.transform_point3(place), DAffine3::IDENTITY)
+            }
+            _ => return None,
+        };
+        let columns = [transform.x_axis, transform.y_axis, transform.z_axis];
+        let axes = columns.map(|column| column.try_normalize().unwrap_or(DVec3::X));
+        Some(Pose { centre, axes })
+    }
+
+    fn moved(
+        &self,
+        node: Node,
+        motion: &Motion,
+        decimals: usize,
+    ) -> Result<Vec<Edit>, StructureError> {
+        let fixed =
+            || StructureError::Inexpressible(format!("{} has no position", self.name(node)));
+        let own = &self.origins.own;
+        match node {
+            Node::Light(light) => {
+                let transform = *own.lights.get(light).ok_or_else(fixed)?;
+                Ok(self.moved_by_numbers(node, &transform, motion, decimals))
+            }
+            Node::Object(object) => {
+                let place = *self.origins.objects().get(object).ok_or_else(fixed)?;
+                let placed = *own.objects.get(object).ok_or_else(fixed)?;
+                let is_even = match motion {
+                    Motion::Move(_) => true,
+                    Motion::Rotate { .. } => is_similar(&placed.transform),
+                    Motion::Scale { along, .. } => *along == Along::All,
+                };
+                if *place.record == SPHERE && is_even {
+                    return Ok(self.moved_by_numbers(node, &placed.transform, motion, decimals));
+                }
+                self.wrapped(
+                    [place.at, placed.end],
+                    &placed.transform,
+                    placed.centre,
+                    motion,
+                )
+            }
+            _ => Err(fixed()),
+        }
+    }
+}
+
+impl Source {
+    /// The commands of an object: its line, or those of its triangles.
+    pub(super) fn commands(&self, object: usize) -> Vec<usize> {
+        let (Some(place), Some(placed)) = (
+            self.origins.objects().get(object),
+            self.origins.own.objects.get(object),
+        ) else {
+            return Vec::new();
+        };
+        let is_own = |at: &usize| {
+            *at == place.at
+                || self
+                    .kind(*at)
+                    .is_some_and(|kind| [TRI, TRI_NORMAL].contains(kind))
+        };
+        (place.at..=placed.end).filter(is_own).collect()
+    }
+
+    /// Fails if two nodes are of several lines, or a state changes between them.
+    pub(super) fn check_exchange(&self, [first, second]: [Node; 2]) -> Result<(), StructureError> {
+        let refused = |reason: &str| Err(StructureError::Inexpressible(reason.to_owned()));
+        let (Some(before), Some(behind)) = (self.origins.get(first), self.origins.get(second))
+        else {
+            return Ok(());
+        };
+        let is_single = |place: &&Place| place.record.makes != Makes::State;
+        if [before, behind].iter().any(|place| !is_single(place)) {
+            return refused("a mesh keeps its place: its triangles are many lines");
+        }
+        let mut between = (before.at + 1..behind.at).filter_map(|at| self.kind(at));
+        if between.any(|kind| kind.makes == Makes::State) {
+            return refused("the state changes between them: move the lines in the text");
+        }
+        Ok(())
+    }
+
+    fn kind(&self, at: usize) -> Option<&'static Record> {
+        kind(&SCHEMA, &self.text, &self.tree.tokens(&self.text, at)).ok()
+    }
+
+    /// The edits of a node's own numbers, which are in a space with this transform.
+    fn moved_by_numbers(
+        &self,
+        node: Node,
+        transform: &DAffine3,
+        motion: &Motion,
+        decimals: usize,
+    ) -> Vec<Edit> {
+        let back = transform.inverse();
+        let mut edits = Vec::new();
+        for placed in self.fields(node) {
+            let new = match (placed.field.part, self.vector(&placed), motion) {
+                (Part::Point(_), Some(old), _) => {
+                    let moved = motion.point(transform.transform_point3(old));
+                    let new = back.transform_point3(moved);
+                    [0, 1, 2]
+                        .map(|at| rounded(old[at], new[at], decimals))
+                        .to_vec()
+                }
+                (Part::Direction, Some(old), Motion::Rotate { .. }) => {
+                    let moved = motion.direction(transform.transform_vector3(old));
+                    let new = back.transform_vector3(moved);
+                    [0, 1, 2]
+                        .map(|at| rounded(old[at], new[at], PRECISE))
+                        .to_vec()
+                }
+                (_, _, Motion::Scale { factor, .. }) if placed.field.key == "radius" => {
+                    let old = number(&self.text, placed.spans[0]);
+                    vec![rounded(old, factor * old, decimals)]
+                }
+                _ => continue,
+            };
+            edits.extend(replacements(&self.text, &placed.spans, &new));
+        }
+        edits
+    }
+
+    /// The edits that put transforms before some commands: into a push and pop of their own if they have
+    /// one, otherwise into a new one.
+    fn wrapped(
+        &self,
+        [first, last]: [usize; 2],
+        inner: &DAffine3,
+        centre: DVec3,
+        motion: &Motion,
+    ) -> Result<Vec<Edit>, StructureError> {
+        let text = &*self.text;
+        let end = line_ending(text);
+        let line = |at: usize| {
+            let span = self.tree.span(at);
+            Span::new(line_from(text, span.start()), line_end(text, span.end()))
+        };
+        let indent = |at: usize| &text[line(at).start()..self.tree.span(at).start()];
+        let is_own = matches!(
+            motion,
+            Motion::Scale {
+                along: Along::Own(_),
+                ..
+            }
+        );
+        let pushed = self.own_push(first, last).filter(|_| !is_own);
+        let frame = match pushed {
+            Some(push) => self
+                .origins
+                .own
+                .pushed
+                .get(&push)
+                .copied()
+                .unwrap_or(*inner),
+            None => *inner,
+        };
+        let transforms = transforms(&frame, centre, motion)?;
+        let insert = |at, text| Edit {
+            span: Span::at(at),
+            text,
+        };
+        if let Some(push) = pushed {
+            let indent = indent(push);
+            let lines = transforms.iter().map(|one| format!("{end}{indent}{one}"));
+            return Ok(vec![insert(line(push).end(), lines.collect())]);
+        }
+        let indent = indent(first);
+        let opening = std::iter::once("pushTransform").chain(transforms.iter().map(String::as_str));
+        let opening = opening.map(|one| format!("{indent}{one}{end}")).collect();
+        Ok(vec![
+            insert(line(first).start(), opening),
+            insert(line(last).end(), format!("{end}{indent}popTransform")),
+        ])
+    }
+
+    /// The push of a pair that holds no other primitive or light than these commands.
+    fn own_push(&self, first: usize, last: usize) -> Option<usize> {
+        let is_plain = |kind: &Record| kind.makes == Makes::State && *kind != POP && *kind != PUSH;
+        let mut before = (0..first).rev().map(|at| (at, self.kind(at)));
+        let (push, _) = before.find(|(_, kind)| !kind.is_some_and(is_plain))?;
+        let mut behind = (last + 1..self.tree.records.len()).map(|at| (at, self.kind(at)));
+        let (pop, _) = behind.find(|(_, kind)| !kind.is_some_and(is_plain))?;
+        let is_pair = self.kind(push) == Some(&PUSH) && self.kind(pop) == Some(&POP);
+        let mut others = (push + 1..first)
+            .chain(last + 1..pop)
+            .filter_map(|at| self.kind(at));
+        let primitives = [TRI, TRI_NORMAL, SPHERE, QUAD_LIGHT];
+        (is_pair && !others.any(|kind| primitives.contains(kind))).then_some(push)
+    }
+}
+
+/// Whether a transform turns and scales alike in all directions.
+pub(super) fn is_similar(transform: &DAffine3) -> bool {
+    let columns = [transform.x_axis, transform.y_axis, transform.z_axis];
+    let [a, b, c] = columns.map(DVec3::length);
+    let across = [
+        columns[0].dot(columns[1]),
+        columns[0].dot(columns[2]),
+        columns[1].dot(columns[2]),
+    ];
+    (a - b).abs().max((a - c).abs()) <= ALIKE * a
+        && across.iter().all(|dot| dot.abs() <= ALIKE * a * a)
+}
+
+/// The commands that, in this frame, do what a motion does in the world.
+fn transforms(
+    frame: &DAffine3,
+    centre: DVec3,
+    motion: &Motion,
+) -> Result<Vec<String>, StructureError> {
+    let refused = |reason: &str| Err(StructureError::Inexpressible(reason.to_owned()));
+    let back = frame.inverse();
+    let words = |name: &str, numbers: &[f64]| {
+        let literal = |number: &f64| spelled(rounded_off(rounded(0.0, *number, PRECISE)));
+        let numbers: Vec<_> = numbers.iter().map(literal).collect();
+        format!("{name} {}", numbers.join(" "))
+    };
+    let about = |point: DVec3, inner: String| {
+        let point = back.transform_point3(point);
+        if point == DVec3::ZERO {
+            return vec![inner];
+        }
+        let to = words("translate", &point.to_array());
+        vec![to, inner, words("translate", &(-point).to_array())]
+    };
+    match *motion {
+        Motion::Move(by) => Ok(vec![words(
+            "translate",
+            &back.transform_vector3(by).to_array(),
+        )]),
+        Motion::Rotate {
+            axis,
+            angle,
+            about: point,
+        } => {
+            if !is_similar(frame) {
+                return refused("its transforms are uneven: turn it in its text");
+            }
+            let own = back.transform_vector3(axis).normalize().to_array();
+            let angle = angle * frame.matrix3.determinant().signum();
+            let turn = words("rotate", &[own[0], own[1], own[2], angle]);
+            Ok(about(point, turn))
+        }
+        Motion::Scale {
+            factor,
+            along,
+            about: point,
+        } => {
+            let mut factors = DVec3::ONE;
+            let point = match along {
+                Along::All => {
+                    factors = DVec3::splat(factor);
+                    point
+                }
+                Along::Own(axis) => {
+                    factors[axis] = factor;
+                    centre
+                }
+                Along::World(axis) => {
+                    let own = back
+                        .transform_vector3(DVec3::AXES[axis])
+                        .normalize_or_zero();
+                    let known = (0..3).find(|&at| ALIKE.mul_add(-1.0, 1.0) <= own[at].abs());
+                    let Some(known) = known.filter(|_| is_similar(frame)) else {
+                        return refused(
+                            "it can only be scaled along its own axes: press the axis key again",
+                        );
+                    };
+                    factors[known] = factor;
+                    point
+                }
+            };
+            Ok(about(point, words("scale", &factors.to_array())))
+        }
+    }
+}
