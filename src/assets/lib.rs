@@ -7,6 +7,7 @@ mod failure;
 mod fingerprint;
 mod folder;
 mod gate;
+mod mesh_scene;
 mod meshes;
 mod pictures;
 
@@ -26,6 +27,7 @@ pub use edited::Edited;
 pub use failure::{PictureError, PictureErrors, report};
 pub use fingerprint::{FileDigests, fingerprint};
 pub use folder::{NoFolder, check_folders};
+pub use mesh_scene::{MeshScene, is_mesh, mesh_extensions};
 
 /// The limits for all files of a scene in total: 512 MiB of files, 384 MiB of decoded pictures, and
 /// as many triangles as a single mesh may have.

@@ -7,12 +7,14 @@ use std::sync::Arc;
 use super::Load;
 use super::failure::Failure;
 use super::gate::FileContent;
-use obj::{Finding, Model};
+use obj::{Finding, Format, Model};
 use scene::{Meshes, NoMesh, beside};
 
 /// A mesh and the files it was read from.
 #[derive(Clone, Debug)]
 pub(super) struct KnownMesh {
+    /// What the bytes were read as.
+    format: Format,
     /// A hash of the file's bytes.
     digest: u64,
     /// The libraries by their names in the mesh, each with a hash of its bytes or an error.
@@ -29,6 +31,11 @@ pub(super) fn with_extension(name: &str) -> Option<String> {
     lacks.then(|| format!("{name}.obj"))
 }
 
+/// The format of a mesh by its name: `.obj` unless it has the extension of another one.
+fn format(name: &str) -> Format {
+    Format::of_path(Path::new(name)).unwrap_or(Format::Obj)
+}
+
 impl Load<'_> {
     /// Reads meshes. The result contains the meshes or the reasons why they cannot be read.
     pub(super) fn meshes(&mut self, names: &BTreeSet<String>) -> Meshes {
@@ -42,15 +49,16 @@ impl Load<'_> {
     }
 
     fn mesh(&mut self, name: &str, libraries: &mut Libraries) -> Result<Arc<Model>, NoMesh> {
+        let format = format(name);
         let failed = |failure: Failure| NoMesh::Unread {
             reason: failure.to_string(),
             hint: failure.hint(),
         };
         let content = self.mesh_content(name).map_err(failed)?;
-        let known = match self.known(name, content.digest, libraries) {
+        let known = match self.known(name, (format, content.digest), libraries) {
             Some(known) => known,
             None => self
-                .parsed(name, &content, libraries)
+                .parsed((name, format), &content, libraries)
                 .map_err(NoMesh::Malformed)?,
         };
         let model = Arc::clone(&known.model);
@@ -88,11 +96,16 @@ impl Load<'_> {
         }
     }
 
-    /// The known mesh with this hash whose libraries have not changed.
-    fn known(&mut self, name: &str, digest: u64, libraries: &mut Libraries) -> Option<KnownMesh> {
+    /// The known mesh of this format and hash whose libraries have not changed.
+    fn known(
+        &mut self,
+        name: &str,
+        read: (Format, u64),
+        libraries: &mut Libraries,
+    ) -> Option<KnownMesh> {
         let known = self.now.meshes.iter().chain(&self.before.meshes);
         let same: Vec<_> = known
-            .filter(|known| known.digest == digest)
+            .filter(|known| (known.format, known.digest) == read)
             .cloned()
             .collect();
         same.into_iter().find(|known| {
@@ -106,12 +119,12 @@ impl Load<'_> {
     /// Parses a mesh. Fails with what is wrong with it.
     fn parsed(
         &mut self,
-        name: &str,
+        (name, format): (&str, Format),
         content: &FileContent,
         libraries: &mut Libraries,
     ) -> Result<KnownMesh, Vec<Finding>> {
         let mut asked = Vec::new();
-        let read = obj::read(&content.bytes, |library| {
+        let read = obj::read_as(format, &content.bytes, |library| {
             let answer = self.library(name, library, libraries);
             let (bytes, digest) = match answer {
                 Ok((bytes, digest)) => (Ok(bytes), Ok(digest)),
@@ -122,11 +135,14 @@ impl Load<'_> {
         });
         let mut model = read?;
         let mut known = self.now.meshes.iter().chain(&self.before.meshes);
-        if let Some(twin) = known.find(|known| known.digest == content.digest) {
+        if let Some(twin) =
+            known.find(|known| (known.format, known.digest) == (format, content.digest))
+        {
             // Only the materials differ: the triangles and their tree can be shared.
             model.mesh = Arc::clone(&twin.model.mesh);
         }
         Ok(KnownMesh {
+            format,
             digest: content.digest,
             asked,
             model: Arc::new(model),

@@ -120,7 +120,7 @@ fn images(work: &Compare) -> Result<[Image; 2], Error> {
 }
 
 fn is_picture(path: &Path) -> bool {
-    Language::of_path(path).is_err()
+    Language::of_path(path).is_err() && !assets::is_mesh(path)
 }
 
 fn read(path: &Path) -> Result<Recorded, Error> {

@@ -4,10 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::{Error, Messages};
-use assets::Assets;
+use assets::{Assets, is_mesh};
 use file::ReadError;
-use language::{Language, Lowered, Node, Outlook, Prospect, Source, errors_of_beginning, outlook};
-use memory::OutOfMemory;
+use language::{Language, Node, Outlook, Prospect, Source, Up, errors_of_beginning, outlook};
 use scene::{Camera, Rendering, Scene, Size, Viewpoint};
 use text::{Findings, Span, counted};
 
@@ -18,6 +17,8 @@ pub struct Reading {
     pub warnings: Warnings,
     /// Additional folders that referenced files may be read from.
     pub assets: Vec<PathBuf>,
+    /// The axis that points up in meshes read as scenes; by default that of their formats' custom.
+    pub up: Option<Up>,
 }
 
 /// How warnings of a scene are treated.
@@ -90,31 +91,35 @@ impl Reading {
     }
 
     /// Reads a scene and the files it references, and prints all findings, including those about the
-    /// resulting picture, where `over`, if given, takes precedence over the text's settings.
+    /// resulting picture, where `over`, if given, takes precedence over the text's settings. A mesh is read
+    /// as the new scene around it.
     pub(super) fn load(
         &self,
         messages: Messages,
         path: &Path,
         over: Option<&Over>,
     ) -> Result<Loaded, Error> {
-        let language = Language::of_path(path).map_err(|unknown| {
-            // An error in opening the file comes before its extension.
-            file::open(path).map_or_else(Error::from, |_| unknown.into())
-        })?;
-        if let Some(beginning) = file::read_beginning(path)? {
-            self.check_beginning(messages, path, language, &beginning)?;
-        }
-        let text = file::read_text(path)?;
-        for copy in file::backups(path) {
-            messages.note(&file::interruption(path.display(), &copy));
-        }
+        let mut assets = Assets::new(&self.assets);
+        let written = if is_mesh(path) {
+            self.around_mesh(messages, path, &mut assets)?
+        } else {
+            self.written(messages, path)?
+        };
+        let Written {
+            path,
+            language,
+            text,
+            ..
+        } = &written;
         let no_memory = |reason| ReadError::NoMemory {
-            path: path.to_owned(),
+            path: path.clone(),
             reason,
         };
-        language::fits(language, &text, 0).map_err(no_memory)?;
-        let mut source = Source::new(language, Arc::new(text));
-        let (lowered, read) = self.lower(messages, path, &mut source).map_err(no_memory)?;
+        language::fits(*language, text, 0).map_err(no_memory)?;
+        let mut source = Source::new(*language, Arc::clone(text));
+        let lowered = assets.lower(path, &mut source).map_err(no_memory)?;
+        let (lowered, read) = lowered;
+        print_elsewhere(messages, &read);
         let mut findings = lowered.diagnostics;
         let mut prospects = Vec::new();
         if let Some((scene, over)) = lowered.scene.as_ref().zip(over) {
@@ -126,7 +131,12 @@ impl Reading {
                 prospects.push(prospect);
             }
         }
-        let findings = self.warnings.apply(findings.sorted());
+        let warnings = match written.shows_mesh {
+            // Without its mesh, the scene is nothing that was asked for.
+            Some(false) => Warnings::Refused,
+            _ => self.warnings,
+        };
+        let findings = warnings.apply(findings.sorted());
         messages.all_findings(path, source.text(), &findings);
         Ok(Loaded {
             size: size_span(&source),
@@ -135,6 +145,49 @@ impl Reading {
             findings,
             prospects,
             source,
+        })
+    }
+
+    /// Reads the text of a scene.
+    fn written(&self, messages: Messages, path: &Path) -> Result<Written, Error> {
+        let language = Language::of_path(path).map_err(|unknown| {
+            // An error in opening the file comes before its extension.
+            file::open(path).map_or_else(Error::from, |_| unknown.into())
+        })?;
+        if let Some(beginning) = file::read_beginning(path)? {
+            self.check_beginning(messages, path, language, &beginning)?;
+        }
+        let text = file::read_text(path)?;
+        for copy in file::backups(path) {
+            messages.note(&file::interruption(path.display(), &copy));
+        }
+        Ok(Written {
+            path: path.to_owned(),
+            language,
+            text: Arc::new(text),
+            shows_mesh: None,
+        })
+    }
+
+    /// Makes a scene around a mesh, and says so.
+    fn around_mesh(
+        &self,
+        messages: Messages,
+        path: &Path,
+        assets: &mut Assets,
+    ) -> Result<Written, Error> {
+        // An error in opening the file is not one of the new scene.
+        file::open(path)?;
+        let made = assets.scene_of_mesh(path, self.up);
+        if made.is_readable {
+            let name = path.display();
+            messages.note(&format!("{name} as a new scene: {}", made.summary));
+        }
+        Ok(Written {
+            path: made.path,
+            language: Language::Xml,
+            text: Arc::new(made.text),
+            shows_mesh: Some(made.is_readable),
         })
     }
 
@@ -160,24 +213,25 @@ impl Reading {
             errors: findings.errors(),
         })
     }
+}
 
-    /// Lowers a text with the files it references, and returns both. The diagnostics include those of the
-    /// files; files found elsewhere than at the path written are printed as notes.
-    fn lower(
-        &self,
-        messages: Messages,
-        path: &Path,
-        source: &mut Source,
-    ) -> Result<(Lowered, assets::Loaded), OutOfMemory> {
-        let (lowered, loaded) = Assets::new(&self.assets).lower(path, source)?;
-        for (name, found) in &loaded.elsewhere {
-            let found = match found.parent() {
-                Some(parent) if parent.as_os_str().is_empty() => Path::new(".").join(found),
-                _ => found.clone(),
-            };
-            messages.note(&format!("{name} is read from {}", found.display()));
-        }
-        Ok((lowered, loaded))
+/// The text of a scene.
+struct Written {
+    path: PathBuf,
+    language: Language,
+    text: Arc<String>,
+    /// If it was made around a mesh: whether this can be read.
+    shows_mesh: Option<bool>,
+}
+
+/// Says where files were found elsewhere than at the path written.
+fn print_elsewhere(messages: Messages, read: &assets::Loaded) {
+    for (name, found) in &read.elsewhere {
+        let found = match found.parent() {
+            Some(parent) if parent.as_os_str().is_empty() => Path::new(".").join(found),
+            _ => found.clone(),
+        };
+        messages.note(&format!("{name} is read from {}", found.display()));
     }
 }
 

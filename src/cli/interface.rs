@@ -7,7 +7,7 @@ use clap::{ArgGroup, Args};
 
 use super::choices::{ColourChoice, PixelsChoice, ThemeChoice};
 use super::rendering::RenderingArguments;
-use super::shared::{AssetArguments, spp_range, threads_range, whole_number};
+use super::shared::{AssetArguments, UpArgument, spp_range, threads_range, whole_number};
 use config::{MAX_BANDWIDTH, POLLS};
 use ui::keymap::Keymap;
 use ui::terminal::Mouse;
@@ -29,7 +29,8 @@ pub enum Purpose {
 #[derive(Args, Debug)]
 #[command(group = ArgGroup::new("headless").args(["keys", "frames"]).multiple(true))]
 pub(super) struct InterfaceArguments {
-    /// Scene file to open: .ray, .dat or .xml; a new scene if it does not exist
+    /// Scene file to open: .ray, .dat or .xml; a new scene if it does not exist. Or a mesh (.obj, .ply or
+    /// .stl): a new scene around it
     #[arg(value_name = "SCENE")]
     pub(super) scene: Option<PathBuf>,
     // Parsed so that a second scene is not rejected as an unknown command.
@@ -90,6 +91,8 @@ pub(super) struct InterfaceArguments {
     #[arg(long, value_name = "COLSxROWS", value_parser = parse_screen, requires = "headless")]
     screen: Option<(u16, u16)>,
     #[command(flatten)]
+    up: UpArgument,
+    #[command(flatten)]
     assets: AssetArguments,
 }
 
@@ -116,6 +119,7 @@ impl InterfaceArguments {
         let is_headless = self.keys.is_some() || !self.frames.is_empty();
         ui::Options {
             scene: self.scene,
+            up: self.up.up(),
             poll: self.poll.map(Duration::from_millis),
             bandwidth: self.bandwidth.map(|kilobytes| kilobytes * 1000),
             colour: self.color.map(ColourChoice::value),

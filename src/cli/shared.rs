@@ -4,12 +4,13 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueEnum};
 
 use batch::{Output, Reading, Target, Warnings};
 use config::MAX_THREADS;
 use image_file::{FORMATS, ImageFormat, known_extensions};
+use language::Up;
 use scene::MAX_SPP;
 
 #[derive(Args, Debug)]
@@ -27,7 +28,31 @@ pub(super) struct ReadingArguments {
     #[arg(long)]
     strict: bool,
     #[command(flatten)]
+    up: UpArgument,
+    #[command(flatten)]
     assets: AssetArguments,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct UpArgument {
+    /// Axis of a mesh, opened like a scene, that points up [default: z for .stl, otherwise y]
+    #[arg(long, value_name = "AXIS", value_enum)]
+    up: Option<UpChoice>,
+}
+
+impl UpArgument {
+    pub(super) fn up(self) -> Option<Up> {
+        self.up.map(|up| match up {
+            UpChoice::Y => Up::Y,
+            UpChoice::Z => Up::Z,
+        })
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum UpChoice {
+    Y,
+    Z,
 }
 
 impl ReadingArguments {
@@ -39,6 +64,7 @@ impl ReadingArguments {
                 Warnings::Allowed
             },
             assets: self.assets.folders,
+            up: self.up.up(),
         }
     }
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::shared::AssetArguments;
+use super::shared::{AssetArguments, UpArgument};
 use batch::{Reading, Show};
 
 pub(super) const EXAMPLES: &str = "\
@@ -28,6 +28,8 @@ pub(super) struct ShowArguments {
     #[arg(value_name = "SCENE")]
     scene: Option<PathBuf>,
     #[command(flatten)]
+    up: UpArgument,
+    #[command(flatten)]
     assets: AssetArguments,
 }
 
@@ -38,6 +40,7 @@ impl ShowArguments {
             scene: self.scene,
             reading: Reading {
                 assets: self.assets.folders,
+                up: self.up.up(),
                 ..Reading::default()
             },
         }

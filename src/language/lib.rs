@@ -68,6 +68,7 @@ pub use saved::{SavedView, view_name};
 pub use structure::{
     Addition, Neighbour, NewNode, Placement, Pose, StructureEdits, StructureError,
 };
+pub use xml::{ShownMesh, Up, around_mesh};
 
 /// Declares the languages, one per line, by folder name and file extension. A folder
 /// provides `Source`, `errors_of_beginning`, `tree_bytes`, `write`, `LEAVES_KEEP_TO_LINES`,

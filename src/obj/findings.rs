@@ -13,6 +13,8 @@ pub(super) struct File<'t> {
     /// The library as named by the mesh; `None` for the mesh itself.
     pub(super) library: Option<&'t str>,
     pub(super) bytes: &'t [u8],
+    /// Where it goes on with numbers instead of text, and has no more lines.
+    pub(super) numbers: Option<usize>,
 }
 
 /// The warnings about a mesh, or about its libraries.
@@ -69,9 +71,21 @@ impl Findings {
     }
 }
 
-impl File<'_> {
+impl<'t> File<'t> {
+    /// A mesh that is text.
+    pub(super) fn text(bytes: &'t [u8]) -> Self {
+        Self {
+            library: None,
+            bytes,
+            numbers: None,
+        }
+    }
+
     fn finding(self, fault: Fault) -> Finding {
         let Place { line, at } = fault.place.place(self.bytes);
+        if self.numbers.is_some_and(|numbers| numbers <= at) {
+            return self.finding_in_numbers(fault, Place { line, at });
+        }
         let is_end = |&byte: &u8| byte == b'\n' || byte == b'\r';
         let start = self.bytes[..at].iter().rposition(is_end);
         let start = start.map_or(0, |end| end + 1);
@@ -101,6 +115,24 @@ impl File<'_> {
             expected: fault.expected,
             hint: (!fault.cost.is_empty()).then(|| fault.cost.to_owned()),
             marked: Span::new(first, last),
+            excerpt,
+        }
+    }
+
+    /// The excerpt of a number is its bytes.
+    fn finding_in_numbers(self, fault: Fault, Place { line, at }: Place) -> Finding {
+        let word = self.bytes.get(at..).unwrap_or_default();
+        let word = &word[..word.len().min(fault.length)];
+        let bytes: Vec<_> = word.iter().map(|byte| format!("{byte:02x}")).collect();
+        let excerpt = bytes.join(" ");
+        Finding {
+            library: self.library.map(str::to_owned),
+            line,
+            column: 1,
+            message: format!("{} (byte {at})", fault.message),
+            expected: fault.expected,
+            hint: (!fault.cost.is_empty()).then(|| fault.cost.to_owned()),
+            marked: Span::new(0, excerpt.len()),
             excerpt,
         }
     }

@@ -1,19 +1,25 @@
-//! Parses Wavefront `.obj` meshes and their `.mtl` materials from bytes. Accesses no files; the
-//! caller supplies the bytes of the libraries that a mesh names.
+//! Parses meshes from bytes: Wavefront `.obj` with `.mtl` materials, Stanford `.ply` and
+//! stereolithography `.stl`. Accesses no files; the caller supplies the bytes of the libraries that a
+//! mesh names.
 //!
-//! What one line has wrong costs only that line, with a warning. A material is just what its
-//! statements specify; the scene's language decides how it looks.
+//! What one line, or one row of numbers, has wrong costs only that, with a warning. A material is just what
+//! its statements specify; the scene's language decides how it looks. No reader allocates by a number that
+//! the file merely declares, and each takes time linear in the file.
 
+mod building;
 mod ears;
 mod faces;
 mod findings;
+mod format;
 mod libraries;
 mod lines;
 mod maps;
 mod mesh;
 mod mtl;
 mod plain;
+mod ply;
 mod polygons;
+mod stl;
 
 #[cfg(test)]
 mod tests;
@@ -24,6 +30,7 @@ use std::sync::Arc;
 use geometry::Mesh;
 use text::Span;
 
+pub use format::Format;
 pub use maps::{Edges, Map};
 pub use mtl::Material;
 
@@ -55,7 +62,8 @@ pub struct Model {
 pub struct Finding {
     /// The library as named by the mesh; `None` for the mesh itself.
     pub library: Option<String>,
-    /// The line, from 1; the last one if something is missing at the end.
+    /// The line, from 1; the last one if something is missing at the end. Numbers have no lines: there it is
+    /// the last one before them, and the message says which byte of the file, from 0.
     pub line: usize,
     /// The column of the offending word, in characters from 1.
     pub column: usize,
@@ -65,7 +73,7 @@ pub struct Finding {
     pub expected: String,
     /// What it costs, and how many further problems are not reported.
     pub hint: Option<String>,
-    /// The line, or the part of a long one around the word.
+    /// The line, or the part of a long one around the word; of a number its bytes.
     pub excerpt: String,
     /// The word in the excerpt.
     pub marked: Span,
@@ -86,7 +94,7 @@ impl fmt::Display for Finding {
     }
 }
 
-/// Reads a mesh. `library` returns the bytes of a library, given its name in the mesh, or why it
+/// Reads an `.obj` mesh. `library` returns the bytes of a library, given its name in the mesh, or why it
 /// cannot be read. Polygons become triangles in file order: the fan around their first corner where
 /// that covers nothing else, otherwise ears of their outline.
 ///
@@ -97,4 +105,17 @@ pub fn read<B: AsRef<[u8]>>(
     library: impl FnMut(&str) -> Result<B, String>,
 ) -> Result<Model, Vec<Finding>> {
     mesh::read(bytes, MAX_TRIANGLES, library)
+}
+
+/// Reads a mesh of any format; see [`read`]. Meshes of other formats than `.obj` name no libraries.
+pub fn read_as<B: AsRef<[u8]>>(
+    format: Format,
+    bytes: &[u8],
+    library: impl FnMut(&str) -> Result<B, String>,
+) -> Result<Model, Vec<Finding>> {
+    match format {
+        Format::Obj => read(bytes, library),
+        Format::Ply => ply::read(bytes, MAX_TRIANGLES),
+        Format::Stl => stl::read(bytes, MAX_TRIANGLES),
+    }
 }

@@ -49,11 +49,24 @@ pub(super) struct Word<'s> {
 
 /// The lines of a text. They end at a line feed, including all carriage returns directly before it,
 /// or at any other carriage return.
-struct Lines<'t> {
+pub(super) struct Lines<'t> {
     bytes: &'t [u8],
     /// Where the next line begins.
     next: Place,
     end: usize,
+}
+
+impl<'t> Lines<'t> {
+    /// The lines of a text from a place on.
+    pub(super) fn new(bytes: &'t [u8], next: Place) -> Self {
+        let end = bytes.len();
+        Self { bytes, next, end }
+    }
+
+    /// The number of bytes that are left.
+    pub(super) fn rest(&self) -> usize {
+        self.end.saturating_sub(self.next.at)
+    }
 }
 
 /// The non-blank statements in a range of a file, whose first line has number `line`.
@@ -100,11 +113,7 @@ pub(super) fn statements(
 
 /// The number of line ends in a text.
 pub(super) fn line_ends(bytes: &[u8]) -> usize {
-    let mut lines = Lines {
-        bytes,
-        next: Place::default(),
-        end: bytes.len(),
-    };
+    let mut lines = Lines::new(bytes, Place::default());
     lines.by_ref().for_each(drop);
     lines.next.line
 }
@@ -207,11 +216,7 @@ impl Statement<'_> {
 impl Spot {
     /// Its line and offset in the file with these bytes. Reads the lines of its statement.
     pub(super) fn place(self, bytes: &[u8]) -> Place {
-        let mut lines = Lines {
-            bytes,
-            next: self.start,
-            end: bytes.len(),
-        };
+        let mut lines = Lines::new(bytes, self.start);
         let mut line = self.start;
         let mut offset = self.offset;
         for _ in 0..self.joints {

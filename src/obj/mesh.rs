@@ -101,10 +101,7 @@ pub(super) fn read_parts<B: AsRef<[u8]>>(
 impl<'t> MeshBuilder<'t> {
     fn new(bytes: &'t [u8], most: usize, known: Option<Known>) -> Self {
         Self {
-            file: File {
-                library: None,
-                bytes,
-            },
+            file: File::text(bytes),
             most,
             known,
             parts: MeshParts::default(),

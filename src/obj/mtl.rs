@@ -82,7 +82,7 @@ pub(super) fn read(
     let mut reader = Library {
         file: File {
             library: Some(library),
-            bytes,
+            ..File::text(bytes)
         },
         findings,
         told: HashSet::new(),

@@ -1,6 +1,8 @@
 mod libraries;
 mod odd_lines;
+mod ply;
 mod polygons;
+mod stl;
 
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -65,14 +65,14 @@ use std::path::{Path, PathBuf};
 
 use app::{App, Opening, OpeningText, Preferences};
 use arrange::PanelSizes;
-use assets::check_folders;
+use assets::{check_folders, is_mesh};
 use file::{ReadError, state_folder};
 use keymap::Keymap;
 use language::Language;
 use memory::Need;
 pub use options::{Options, Rehearsal};
 pub use pixels::Pixels;
-use scene_reading::Opened;
+use scene_reading::{Opened, language_of};
 use service::{remembering, scene_loader};
 pub use shell::ending::{Ending, Error};
 use shell::script::Script;
@@ -167,7 +167,7 @@ fn find_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Language, Openin
             path: path.to_owned(),
         });
     }
-    let language = Language::of_path(path).map_err(|unknown| {
+    let language = language_of(path).map_err(|unknown| {
         if path.exists() {
             return unknown.into();
         }
@@ -176,10 +176,14 @@ fn find_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Language, Openin
         }
     })?;
     let error = match file::scene_length(path) {
+        Ok(bytes) if is_mesh(path) => {
+            let text = OpeningText::AroundMesh(bytes);
+            return Ok((Some(path.to_owned()), language, text));
+        }
         Ok(bytes) => return Ok((Some(path.to_owned()), language, OpeningText::Unread(bytes))),
         Err(error) => error,
     };
-    let is_missing = matches!(error, ReadError::NotFound { .. });
+    let is_missing = matches!(error, ReadError::NotFound { .. }) && !is_mesh(path);
     let missing = is_missing
         .then(|| scene_loader::missing(path, language))
         .flatten();

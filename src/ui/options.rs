@@ -7,6 +7,7 @@ use super::keymap::Keymap;
 use super::pixels::Pixels;
 use super::terminal::{Choice, ColourDepth, Mouse};
 use super::theme::Theme;
+use language::Up;
 use scene::Rendering;
 use watch::Method;
 
@@ -16,6 +17,8 @@ pub struct Options {
     /// The scene to open. Default: `default.ray` in the current folder, otherwise the embedded
     /// scene.
     pub scene: Option<PathBuf>,
+    /// The axis that points up in meshes opened as scenes. Default: that of their formats' custom.
+    pub up: Option<Up>,
     /// Compares file contents at this interval instead of relying on the system's notifications.
     pub poll: Option<Duration>,
     /// Limit of terminal output, in bytes per second; 0 means no limit.
@@ -59,6 +62,7 @@ impl Options {
     pub fn or(self, configured: Self) -> Self {
         Self {
             scene: self.scene.or(configured.scene),
+            up: self.up.or(configured.up),
             poll: self.poll.or(configured.poll),
             bandwidth: self.bandwidth.or(configured.bandwidth),
             colour: self.colour.or(configured.colour),

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use assets::{MeshScene, is_mesh};
 use document::{Difference, Document, Merge, Merged, Numbers, Snapshot};
 use file::FileId;
-use language::Lowered;
+use language::{Language, Lowered, UnknownLanguage};
 use memory::OutOfMemory;
 use scene::Meshes;
 use text::Findings;
@@ -43,6 +44,16 @@ pub enum Opened {
     Kept(String),
     /// Its file does not exist yet.
     New,
+    /// It was made around a mesh, and its file does not exist yet.
+    AroundMesh(MeshScene),
+}
+
+/// The language of a scene that is opened by a path, also by that of a mesh.
+pub(crate) fn language_of(path: &Path) -> Result<Language, UnknownLanguage> {
+    if is_mesh(path) {
+        return Ok(Language::Xml);
+    }
+    Language::of_path(path)
 }
 
 /// The folder of a scene file.

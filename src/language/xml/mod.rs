@@ -1,6 +1,7 @@
 //! The University of Utah's `.xml`: elements with attributes, and nested objects.
 
 mod add;
+mod around_mesh;
 mod clashing_ids;
 mod copies;
 mod insertions;
@@ -23,6 +24,7 @@ use origins::Origins;
 use text::Findings;
 use tree::Tree;
 
+pub use around_mesh::{ShownMesh, Up, around_mesh};
 pub(super) use memory_estimate::tree_bytes;
 pub(super) use write::write;
 

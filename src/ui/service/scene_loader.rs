@@ -13,9 +13,10 @@ use crate::msg::{Msg, Polled};
 use crate::queue::{Ended, Service};
 use crate::recovery;
 use crate::scene_reading::{Baseline, Opened, Reading, SceneFolder};
+use assets::{Assets, MeshScene, is_mesh};
 use document::Document;
 use file::ReadError;
-use language::Language;
+use language::{Language, Up};
 use scene::Meshes;
 use watch::Method;
 
@@ -40,6 +41,7 @@ impl SceneLoader {
     /// Starts the thread. `send` is called on it and on the watcher's thread.
     pub(crate) fn start(
         method: Method,
+        up: Option<Up>,
         send: impl Fn(Msg) + Clone + Send + 'static,
     ) -> io::Result<Self> {
         let service = Service::start("reading", "reads scenes", move |inbox| {
@@ -47,7 +49,13 @@ impl SceneLoader {
             let watch = |path| {
                 watching.watch(vec![path]);
             };
-            follow(inbox, watch, file::read_text, &send);
+            let read = |path: &Path| {
+                if is_mesh(path) {
+                    return around_mesh(path, up);
+                }
+                file::read_text(path).map(Content::Text)
+            };
+            follow(inbox, watch, read, &send);
         });
         service.map(Self)
     }
@@ -74,7 +82,7 @@ impl SceneLoader {
 fn follow(
     inbox: &Receiver<Request>,
     mut watch: impl FnMut(PathBuf),
-    read: impl Fn(&Path) -> Result<String, ReadError>,
+    read: impl Fn(&Path) -> Result<Content, ReadError>,
     send: impl Fn(Msg),
 ) {
     // An edit may lower a large scene on the shared thread pool, which would delay the work here.
@@ -110,7 +118,19 @@ fn follow(
                     Err(_) => Reading::new(text, baseline),
                 }
             };
-            let reading = read.and_then(|text| {
+            let text = match read {
+                Ok(Content::Text(text)) => Ok(text),
+                Ok(Content::AroundMesh(made)) => {
+                    send(Msg::Opened(path, Ok(Opened::AroundMesh(made))));
+                    continue;
+                }
+                Err(error) if is_mesh(&path) => {
+                    send(Msg::Opened(path, Err(error)));
+                    continue;
+                }
+                Err(error) => Err(error),
+            };
+            let reading = text.and_then(|text| {
                 let place = SceneFolder::of(&path);
                 let understood = understand(text).map_err(|reason| ReadError::NoMemory {
                     path: path.clone(),
@@ -131,6 +151,21 @@ fn follow(
             drop(work);
         }
     }
+}
+
+/// What a file holds.
+enum Content {
+    Text(String),
+    /// A mesh, with the scene made around it.
+    AroundMesh(MeshScene),
+}
+
+/// Makes a scene around a mesh, which may name files of its own folder only.
+fn around_mesh(path: &Path, up: Option<Up>) -> Result<Content, ReadError> {
+    // An error in opening the file is not one of the new scene.
+    file::open(path)?;
+    let made = Assets::new(&[]).scene_of_mesh(path, up);
+    Ok(Content::AroundMesh(made))
 }
 
 impl Request {
@@ -229,7 +264,7 @@ mod tests {
                 requests.send(request(name)).expect("it is there");
             }
             read.borrow_mut().push(path.to_owned());
-            Ok(String::new())
+            Ok(Content::Text(String::new()))
         };
         let report = |msg| match msg {
             Msg::Read(path, Ok(_)) => sent.borrow_mut().push(path),

@@ -71,6 +71,9 @@ impl Beginning {
                 Effect::Read(path, known) => {
                     self.reader.read(path, known, Work::begin(&self.sender))
                 }
+                Effect::Open(path, language) => {
+                    self.reader.open(path, language, Work::begin(&self.sender))
+                }
                 other => {
                     self.effects.push(other);
                     Ok(())

@@ -90,7 +90,7 @@ fn value(text: &mut String, number: f64) {
     attribute(text, "value", number);
 }
 
-fn attribute(text: &mut String, name: &str, number: f64) {
+pub(super) fn attribute(text: &mut String, name: &str, number: f64) {
     text.push(' ');
     text.push_str(name);
     text.push_str("=\"");
@@ -99,7 +99,7 @@ fn attribute(text: &mut String, name: &str, number: f64) {
 }
 
 /// Writes an attribute. What XML cannot hold becomes a blank.
-fn word(text: &mut String, name: &str, word: &str) {
+pub(super) fn word(text: &mut String, name: &str, word: &str) {
     let is_foreign = |c: char| match c {
         '\t' | '\n' | '\r' => false,
         '\u{FFFE}' | '\u{FFFF}' => true,
@@ -110,7 +110,7 @@ fn word(text: &mut String, name: &str, word: &str) {
     let _ = write!(text, " {name}=\"{}\"", escaped(&word, '"'));
 }
 
-fn xyz(text: &mut String, vector: DVec3) {
+pub(super) fn xyz(text: &mut String, vector: DVec3) {
     for (name, number) in ["x", "y", "z"].into_iter().zip(vector.to_array()) {
         attribute(text, name, number);
     }

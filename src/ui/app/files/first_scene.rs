@@ -7,6 +7,7 @@ use super::polling::complain_of_polling;
 use super::reading::{announce_new, note_recent, watch};
 use super::recent::list_recent;
 use super::recover::look_for_kept;
+use super::replacing::request_scene;
 use crate::app::shared::assets::Assets;
 use crate::app::shared::cursor::Names;
 use crate::app::shared::inspection::Inspection;
@@ -73,10 +74,16 @@ pub enum OpeningText {
     Kept(String),
     /// The file does not exist yet: the text is the language's template.
     New,
+    /// The path is that of a mesh of this many bytes: the text is still to be made around it.
+    AroundMesh(u64),
 }
 
 /// Creates the interface, and the effects to start with.
 pub(crate) fn open(opening: Opening) -> (Shared, Vec<Effect>) {
+    let mesh = match opening.text {
+        OpeningText::AroundMesh(_) => opening.path.clone(),
+        _ => None,
+    };
     let (text, state, first) = match opening.text {
         OpeningText::Known(text) => (text, OnDisk::Known, FirstReading::Done),
         OpeningText::Kept(text) => (text, OnDisk::Missing, FirstReading::Done),
@@ -84,7 +91,9 @@ pub(crate) fn open(opening: Opening) -> (Shared, Vec<Effect>) {
             let text = opening.language.template().to_owned();
             (text, OnDisk::New, FirstReading::Done)
         }
-        OpeningText::Unread(bytes) => (String::new(), OnDisk::Known, FirstReading::Pending(bytes)),
+        OpeningText::Unread(bytes) | OpeningText::AroundMesh(bytes) => {
+            (String::new(), OnDisk::Known, FirstReading::Pending(bytes))
+        }
     };
     let mut shared = Shared {
         document: Document::new(opening.language, text),
@@ -121,7 +130,10 @@ pub(crate) fn open(opening: Opening) -> (Shared, Vec<Effect>) {
     if !opening.recent.is_empty() {
         list_recent(&mut shared, opening.recent);
     }
-    let mut effects = watch(&shared);
+    let mut effects = match mesh {
+        Some(mesh) => request_scene(&mut shared, mesh),
+        None => watch(&shared),
+    };
     let lowered = text::lowered(&mut shared);
     if !shared.disk.is_opening() {
         effects.extend(begin(&mut shared, lowered));

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use super::leaving::leave_for;
 use super::reading::{read_again, reread};
 use super::replacing::replace_scene;
-use crate::app::{AfterLeaving, OnDisk, Shared};
+use crate::app::{AfterLeaving, FirstReading, OnDisk, Shared};
 use crate::msg::Effect;
-use crate::scene_reading::{News, Opened};
+use crate::scene_reading::{News, Opened, language_of};
+use crate::text_width::file_name;
 use document::Document;
 use file::ReadError;
 use language::Language;
@@ -32,7 +33,7 @@ pub(crate) fn open_scene(shared: &mut Shared, path: PathBuf) -> Vec<Effect> {
     if shared.disk.is_own(&path) {
         return reread(shared);
     }
-    if let Err(unknown) = Language::of_path(&path) {
+    if let Err(unknown) = language_of(&path) {
         shared.fail(unknown.to_string());
         return Vec::new();
     }
@@ -51,6 +52,10 @@ pub(crate) fn other_scene_read(
     };
     let opened = match opened {
         Ok(opened) => opened,
+        Err(error) if shared.disk.is_opening() => {
+            shared.disk.first = FirstReading::Failed(error);
+            return vec![Effect::Quit];
+        }
         Err(error) => {
             shared.fail(error.to_string());
             // Its changes were not read meanwhile.
@@ -60,7 +65,7 @@ pub(crate) fn other_scene_read(
     if before != (shared.document.revision(), shared.pictures.view) {
         return leave_for(shared, AfterLeaving::Open(path));
     }
-    let Ok(language) = Language::of_path(&path) else {
+    let Ok(language) = language_of(&path) else {
         return Vec::new();
     };
     let (text, state) = match opened {
@@ -78,6 +83,14 @@ pub(crate) fn other_scene_read(
         }
         Opened::Kept(text) => (text, OnDisk::Missing),
         Opened::New => (language.template().to_owned(), OnDisk::New),
+        Opened::AroundMesh(made) => {
+            let document = Document::new(language, made.text);
+            let effects = replace_scene(shared, Some(made.path), document, OnDisk::New, None);
+            let (mesh, name) = (file_name(&path), shared.disk.name());
+            let save = shared.key_for("save");
+            shared.say(format!("{mesh}: {}; {save} writes {name}", made.summary));
+            return effects;
+        }
     };
     let document = Document::new(language, text);
     replace_scene(shared, Some(path), document, state, None)

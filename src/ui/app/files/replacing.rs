@@ -10,12 +10,13 @@ use crate::app::shared::inspection::Inspection;
 use crate::app::{Cursor, OnDisk, Overlays, Shared, text};
 use crate::keymap::Mode;
 use crate::msg::{Effect, Target};
+use crate::scene_reading::language_of;
 use document::Document;
 use language::{Language, Lowered};
 
 /// Requests the scene of a file. The present one stays until the other has been read.
 pub(super) fn request_scene(shared: &mut Shared, path: PathBuf) -> Vec<Effect> {
-    let Ok(language) = Language::of_path(&path) else {
+    let Ok(language) = language_of(&path) else {
         return Vec::new();
     };
     // It may be this very file, under another name.

@@ -1,0 +1,203 @@
+//! A new scene that shows a mesh.
+
+use std::fmt::Write;
+
+use glam::DVec3;
+
+use super::write::{attribute, word, xyz};
+use geometry::Aabb;
+
+/// The axis of a mesh that points up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Up {
+    /// As in most modelling programs.
+    Y,
+    /// As on the bed of a printer.
+    Z,
+}
+
+/// What a new scene shows.
+#[derive(Clone, Copy, Debug)]
+pub struct ShownMesh<'a> {
+    /// The name of its file, relative to the scene.
+    pub name: &'a str,
+    /// The box around it; `None` if it cannot be read.
+    pub bounds: Option<Aabb>,
+    /// Whether it brings materials of its own.
+    pub has_materials: bool,
+    /// Its axis that points up.
+    pub up: Up,
+}
+
+/// The size of the picture in pixels, and the vertical angle of view in degrees.
+const SIZE: [u32; 2] = [800, 600];
+const ANGLE: f64 = 34.0;
+
+/// The directions from the mesh to the eye and the lamps where z is up, not normalised.
+const EYE: DVec3 = DVec3::new(3.0, -7.0, 2.6);
+const LAMP: DVec3 = DVec3::new(2.2, -2.0, 3.4);
+const WINDOW: DVec3 = DVec3::new(-3.0, -2.4, 1.6);
+
+/// How much of the picture the mesh may fill.
+const FILLED: f64 = 0.86;
+
+/// The side of the ground, in radii of the sphere around the mesh.
+const GROUND: f64 = 16.0;
+
+/// The sizes of meshes that a view can frame.
+const SIZES: std::ops::Range<f64> = 1e-100..1e100;
+
+/// Writes a scene that shows a mesh on a ground, with two lights and a view that frames it.
+pub fn around_mesh(mesh: &ShownMesh<'_>) -> String {
+    let unit = Aabb {
+        min: -DVec3::ONE,
+        max: DVec3::ONE,
+    };
+    let fits = |bounds: &Aabb| SIZES.contains(&bounds.half_diagonal());
+    let bounds = mesh.bounds.filter(fits).unwrap_or(unit);
+    let (centre, radius) = (0.5 * bounds.min + 0.5 * bounds.max, bounds.half_diagonal());
+    let round = |place: DVec3| DVec3::from_array(place.to_array().map(|x| rounded(x, radius)));
+    let target = round(centre);
+    let least = round(bounds.min);
+    let least = DVec3::select(least.cmpgt(bounds.min), round(least - step(radius)), least);
+    let foot = match mesh.up {
+        Up::Y => target.with_y(least.y),
+        Up::Z => target.with_z(least.z),
+    };
+    let eye = round(target + mesh.up.of(EYE).normalize() * distance(mesh.up, &bounds, target));
+    let lamp = round(centre + radius * mesh.up.of(LAMP));
+    let window = round(centre + radius * mesh.up.of(WINDOW));
+
+    let mut text = String::from(BEGINNING);
+    text.push_str("    <object type=\"obj\"");
+    word(&mut text, "name", mesh.name);
+    if !mesh.has_materials {
+        word(&mut text, "material", "clay");
+    }
+    text.push_str("/>\n    <!-- A square of side 2, enlarged and laid under the mesh. -->\n");
+    text.push_str("    <object type=\"plane\" name=\"ground\" material=\"stone\">\n");
+    element(&mut text, "      <scale", |text| {
+        attribute(text, "value", rounded(0.5 * GROUND * radius, radius));
+    });
+    if mesh.up == Up::Y {
+        text.push_str("      <rotate angle=\"-90\" x=\"1\"/>\n");
+    }
+    element(&mut text, "      <translate", |text| xyz(text, foot));
+    text.push_str("    </object>\n\n");
+    text.push_str(STONE);
+    if !mesh.has_materials {
+        text.push_str(CLAY);
+    }
+    text.push_str(LIGHTS);
+    for (name, colour, place) in [
+        ("lamp", "r=\"0.85\" g=\"0.78\" b=\"0.66\"", lamp),
+        ("window", "r=\"0.32\" g=\"0.38\" b=\"0.48\"", window),
+    ] {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "    <light type=\"point\" name=\"{name}\">");
+        let _ = writeln!(text, "      <intensity {colour}/>");
+        element(&mut text, "      <position", |text| xyz(text, place));
+        text.push_str("    </light>\n");
+    }
+    text.push_str("  </scene>\n\n  <camera>\n");
+    element(&mut text, "    <position", |text| xyz(text, eye));
+    element(&mut text, "    <target", |text| xyz(text, target));
+    element(&mut text, "    <up", |text| xyz(text, mesh.up.axis()));
+    element(&mut text, "    <fov", |text| {
+        attribute(text, "value", ANGLE)
+    });
+    for (name, size) in ["    <width", "    <height"].into_iter().zip(SIZE) {
+        element(&mut text, name, |text| {
+            attribute(text, "value", size.into())
+        });
+    }
+    text.push_str("  </camera>\n</xml>\n");
+    text
+}
+
+const BEGINNING: &str = "\
+<xml>
+  <scene>
+    <background r=\"0.08\" g=\"0.09\" b=\"0.12\"/>
+    <environment r=\"0.35\" g=\"0.4\" b=\"0.5\"/>
+
+    <!-- The mesh in its own coordinates. -->
+";
+
+const STONE: &str = "\
+    <material type=\"blinn\" name=\"stone\">
+      <diffuse r=\"0.42\" g=\"0.44\" b=\"0.5\"/>
+      <specular value=\"0.1\"/>
+    </material>
+";
+
+const CLAY: &str = "\
+    <material type=\"blinn\" name=\"clay\">
+      <diffuse r=\"0.75\" g=\"0.28\" b=\"0.16\"/>
+      <specular value=\"0.3\"/>
+      <glossiness value=\"60\"/>
+    </material>
+";
+
+const LIGHTS: &str = "
+    <!-- A warm light from the upper right, and a cool one that fills its shadows. -->
+";
+
+fn element(text: &mut String, opening: &str, attributes: impl FnOnce(&mut String)) {
+    text.push_str(opening);
+    attributes(text);
+    text.push_str("/>\n");
+}
+
+impl Up {
+    /// The unit vector that points up.
+    fn axis(self) -> DVec3 {
+        self.of(DVec3::Z)
+    }
+
+    /// Turns a vector of a space where z is up.
+    fn of(self, DVec3 { x, y, z }: DVec3) -> DVec3 {
+        match self {
+            Self::Y => DVec3::new(x, z, -y),
+            Self::Z => DVec3::new(x, y, z),
+        }
+    }
+}
+
+/// The distance at which an eye that looks at a point sees the whole of a box.
+fn distance(up: Up, bounds: &Aabb, target: DVec3) -> f64 {
+    let back = up.of(EYE).normalize();
+    let right = up.axis().cross(back).normalize();
+    let above = back.cross(right);
+    let [width, height] = SIZE.map(f64::from);
+    let slope = FILLED * libm::tan(0.5 * ANGLE.to_radians());
+    let corners = (0..8).map(|corner| {
+        let is_max = |axis: u32| corner >> axis & 1 == 1;
+        let pick = |axis: u32, min: f64, max: f64| if is_max(axis) { max } else { min };
+        DVec3::new(
+            pick(0, bounds.min.x, bounds.max.x),
+            pick(1, bounds.min.y, bounds.max.y),
+            pick(2, bounds.min.z, bounds.max.z),
+        ) - target
+    });
+    let needed = corners.map(|corner| {
+        let aside = (corner.dot(right).abs() * height / width).max(corner.dot(above).abs());
+        aside / slope + corner.dot(back)
+    });
+    needed.fold(0.0, f64::max)
+}
+
+/// The digits behind the point that matter at a size.
+fn digits(size: f64) -> usize {
+    (3.0 - libm::floor(libm::log10(size))).clamp(0.0, 110.0) as usize
+}
+
+/// One in the last of these digits.
+fn step(size: f64) -> f64 {
+    libm::pow(10.0, -(digits(size) as f64))
+}
+
+fn rounded(number: f64, size: f64) -> f64 {
+    let digits = digits(size);
+    format!("{number:.digits$}").parse().unwrap_or(number)
+}
