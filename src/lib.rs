@@ -27,7 +27,7 @@
 //! | [`memory`] | memory available to the process, whether work fits, and the program's allocator | what the memory is for |
 //! | [`text`] | spans, edits, numbers and diagnostics | any language |
 //! | [`geometry`] | ray–shape intersection in `f64`, one module per shape | lights, materials, text |
-//! | [`obj`] | parses `.obj` and `.mtl` into meshes | files, scenes |
+//! | [`obj`] | parses `.obj`, `.mtl`, `.ply` and `.stl` into meshes | files, scenes |
 //! | [`scene`] | the scene as plain, comparable data; render settings are rows of `rendering/rows.rs` | languages, threads, pixels |
 //! | [`language`] | one folder per scene language: tree, table of fields, lowering, origins, edits | files, undo |
 //! | [`document`] | sole owner of a source, its undo history and its saved text | individual languages, files |
@@ -36,7 +36,7 @@
 //! | [`explain`] | records of samples in words, with the names and places of the text | how rays are traced, terminals |
 //! | [`file`](mod@file) | reads scenes and replaces files, atomically where the file system allows it; says why it could not; the state folder | what the bytes mean |
 //! | [`image_file`] | picture files: writes frames, reads textures | what is in a scene |
-//! | [`assets`] | reads the pictures and meshes that scenes name | how they are shaded |
+//! | [`assets`] | reads the pictures and meshes that scenes name; makes scenes around meshes | how they are shaded |
 //! | [`compare`] | two pictures against each other | files, scenes |
 //! | [`shards`] | blocks of unfinished pictures on disk: shards, checkpoints, traces of the interface, merging | scenes, tracing |
 //! | [`track`] | values over frames: reads track files, edits texts to show a frame | files, rendering |

@@ -8,7 +8,7 @@ mod keys;
 mod scene;
 
 pub use document::{edits, merge};
-pub use files::{mtl, obj, picture};
+pub use files::{mtl, obj, picture, ply, stl};
 pub use kept::{config, part, record, track};
 pub use keys::keys;
 pub use scene::{dat, ray, xml};
@@ -17,12 +17,14 @@ pub use scene::{dat, ray, xml};
 pub type Target = fn(&[u8]);
 
 /// All targets by name, which is also that of their corpus.
-pub const TARGETS: [(&str, Target); 13] = [
+pub const TARGETS: [(&str, Target); 15] = [
     ("ray", ray),
     ("dat", dat),
     ("xml", xml),
     ("obj", obj),
     ("mtl", mtl),
+    ("ply", ply),
+    ("stl", stl),
     ("picture", picture),
     ("edits", edits),
     ("merge", merge),

@@ -27,7 +27,8 @@ pub use edited::Edited;
 pub use failure::{PictureError, PictureErrors, report};
 pub use fingerprint::{FileDigests, fingerprint};
 pub use folder::{NoFolder, check_folders};
-pub use mesh_scene::{MeshScene, is_mesh, mesh_extensions};
+pub use language::xml::Up;
+pub use mesh_scene::{MeshScene, is_mesh, is_own_mesh};
 
 /// The limits for all files of a scene in total: 512 MiB of files, 384 MiB of decoded pictures, and
 /// as many triangles as a single mesh may have.

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::{Assets, Wanted};
-use language::{FileKind, NamedFile, ShownMesh, Up, around_mesh};
+use language::xml::{ShownMesh, Up, around_mesh};
+use language::{FileKind, NamedFile};
 use obj::Format;
 use text::{Span, counted};
 
@@ -28,9 +29,9 @@ pub fn is_mesh(path: &Path) -> bool {
     Format::of_path(path).is_some()
 }
 
-/// The extensions of meshes, for a message.
-pub fn mesh_extensions() -> String {
-    text::alternatives(Format::ALL.map(|format| format!(".{}", format.extension())))
+/// Whether a path is that of a mesh which only Halflight reads in scenes.
+pub fn is_own_mesh(path: &Path) -> bool {
+    Format::of_path(path).is_some_and(|format| format != Format::Obj)
 }
 
 impl Assets {
@@ -64,7 +65,7 @@ impl Assets {
         let summary = match model {
             Some(model) => {
                 let triangles = counted(model.mesh.len(), "triangle");
-                format!("{triangles} with {up} up, on a ground with two lights")
+                format!("{triangles}, {up} up, on a ground with two lights")
             }
             None => "it cannot be read".to_owned(),
         };

@@ -42,7 +42,7 @@ fn try_convert(work: &Convert) -> Result<(), Error> {
         losses.append(unreachable_files(work, path, &loaded));
     }
     let losses = work.reading.warnings.apply(losses.sorted());
-    Messages::Text.all_findings(&work.scene, loaded.source.text(), &losses);
+    Messages::Text.all_findings(&loaded.path, loaded.source.text(), &losses);
     match losses.errors() {
         0 => {}
         errors => return Err(Error::Unconverted { errors }),

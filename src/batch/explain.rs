@@ -56,16 +56,16 @@ fn try_explain(work: &Explain) -> Result<(), Error> {
     };
     let words = words(&explanation, &subject);
     let report = match work.report {
-        Report::Text => text(&work.scene, &explanation, &words),
+        Report::Text => text(&loaded.path, &explanation, &words),
         Report::Json => {
-            let object = json::object(&work.scene, &explanation, &words, &subject);
+            let object = json::object(&loaded.path, &explanation, &words, &subject);
             format!("{object:#}\n")
         }
     };
     stdout::print(&report).map_err(stdout::error)?;
     let text = Text {
         messages: Messages::Text,
-        path: &work.scene,
+        path: &loaded.path,
         naming: Naming::Implied,
         source: Some(&loaded.source),
         prospects: &loaded.prospects,

@@ -28,6 +28,7 @@ use std::path::PathBuf;
 
 use ::render::Refusal;
 use assets::NoFolder;
+pub use assets::Up;
 use file::ReadError;
 use image_file::Unreadable;
 use language::UnknownLanguage;

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::{Error, Messages};
-use assets::{Assets, is_mesh};
+use assets::{Assets, Up, is_mesh, is_own_mesh};
 use file::ReadError;
-use language::{Language, Node, Outlook, Prospect, Source, Up, errors_of_beginning, outlook};
+use language::{Language, Node, Outlook, Prospect, Source, errors_of_beginning, outlook};
 use scene::{Camera, Rendering, Scene, Size, Viewpoint};
 use text::{Findings, Span, counted};
 
@@ -43,6 +43,8 @@ impl Warnings {
 
 /// A scene that was read.
 pub(super) struct Loaded {
+    /// The path of its text, which is new if it was made around a mesh.
+    pub(super) path: PathBuf,
     /// `None` if there are errors.
     pub(super) scene: Option<Scene>,
     /// The files it references.
@@ -120,6 +122,9 @@ impl Reading {
         let lowered = assets.lower(path, &mut source).map_err(no_memory)?;
         let (lowered, read) = lowered;
         print_elsewhere(messages, &read);
+        if written.shows_mesh.is_none() {
+            print_own_meshes(messages, &source);
+        }
         let mut findings = lowered.diagnostics;
         let mut prospects = Vec::new();
         if let Some((scene, over)) = lowered.scene.as_ref().zip(over) {
@@ -139,6 +144,7 @@ impl Reading {
         let findings = warnings.apply(findings.sorted());
         messages.all_findings(path, source.text(), &findings);
         Ok(Loaded {
+            path: path.clone(),
             size: size_span(&source),
             scene: lowered.scene.filter(|_| findings.errors() == 0),
             read,
@@ -180,8 +186,9 @@ impl Reading {
         file::open(path)?;
         let made = assets.scene_of_mesh(path, self.up);
         if made.is_readable {
-            let name = path.display();
-            messages.note(&format!("{name} as a new scene: {}", made.summary));
+            let (mesh, scene) = (path.display(), made.path.display());
+            let said = format!("{mesh} in a new scene, {scene}: {}", made.summary);
+            messages.note(&said);
         }
         Ok(Written {
             path: made.path,
@@ -232,6 +239,19 @@ fn print_elsewhere(messages: Messages, read: &assets::Loaded) {
             _ => found.clone(),
         };
         messages.note(&format!("{name} is read from {}", found.display()));
+    }
+}
+
+/// Says which meshes other programs that read the scene do not know.
+fn print_own_meshes(messages: Messages, source: &Source) {
+    let mut names: Vec<_> = source.files().into_iter().map(|file| file.path).collect();
+    names.retain(|name| is_own_mesh(Path::new(name)));
+    names.sort();
+    names.dedup();
+    for name in names {
+        messages.note(&format!(
+            "{name}: the course's own readers of .xml know only .obj meshes"
+        ));
     }
 }
 

@@ -28,7 +28,7 @@ Exit codes: 0 written, 1 write or system error, 2 wrong arguments, 65 invalid sc
 
 #[derive(Args, Debug)]
 pub(super) struct ConvertArguments {
-    /// Scene file: .ray, .dat or .xml
+    /// Scene file: .ray, .dat or .xml; or a mesh: .obj, .ply or .stl
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
     /// New scene file, in the language of its extension: .ray, .dat or .xml; - for standard output

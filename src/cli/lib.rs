@@ -307,6 +307,7 @@ struct Cli {
 const EXAMPLES: &str = "\
 Examples:
   halflight scene.ray                             edit a scene and see it traced
+  halflight bunny.ply                             open a mesh (.obj, .ply, .stl) in a new scene
   halflight render scene.ray -o scene.bmp         render a picture
   halflight render scene.ray -o - --format ppm | ssh far 'cat > scene.ppm'
   halflight check scenes/*.ray                    report errors and warnings
@@ -347,7 +348,7 @@ enum Subcommands {
     Bench(BenchArguments),
     /// Report errors and warnings in scenes, and pictures that are black or overexposed
     Check {
-        /// Scene files
+        /// Scene files, or meshes: .obj, .ply or .stl
         #[arg(required = true, value_name = "SCENE")]
         scenes: Vec<PathBuf>,
         #[command(flatten)]

@@ -7,10 +7,9 @@ use std::str::FromStr;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
-use batch::{Output, Reading, Target, Warnings};
+use batch::{Output, Reading, Target, Up, Warnings};
 use config::MAX_THREADS;
 use image_file::{FORMATS, ImageFormat, known_extensions};
-use language::Up;
 use scene::MAX_SPP;
 
 #[derive(Args, Debug)]

@@ -2,7 +2,7 @@ use std::time::Duration;
 
 use super::*;
 use ::render::Region;
-use batch::{Output, Report, Target, Warnings, Work};
+use batch::{Output, Report, Target, Up, Warnings, Work};
 use image_file::{ImageFormat, MAX_PIXELS};
 use scene::{FalloffRule, Filter, GlossRule, Integrator, MAX_SPP, Rendering, Size, Transfer};
 use ui::Theme;
@@ -52,11 +52,12 @@ fn omitted_options_have_the_defaults_of_the_interface() {
 
 #[test]
 fn options_reach_the_interface() {
-    let line = "halflight --poll=20 --bandwidth 128 --color 256 --theme light --pixels octant --no-mouse --spp 4 --depth 0 --integrator path --filter gaussian --threads 3 --assets b --assets c a";
+    let line = "halflight --poll=20 --bandwidth 128 --color 256 --theme light --pixels octant --no-mouse --spp 4 --depth 0 --integrator path --filter gaussian --threads 3 --up z --assets b --assets c a";
     assert_eq!(
         interface(line),
         ui::Options {
             scene: Some("a".into()),
+            up: Some(Up::Z),
             poll: Some(Duration::from_millis(20)),
             bandwidth: Some(128_000),
             colour: Some(Choice::Fixed(ColourDepth::Palette256)),
@@ -183,8 +184,9 @@ fn the_pixel_and_the_sample_reach_the_explanation() {
 #[test]
 fn asset_folders_reach_every_command() {
     let folders: Vec<PathBuf> = vec!["b".into(), "c".into()];
-    let line = "halflight render a.dat -o a.bmp --assets b --assets c";
+    let line = "halflight render a.dat -o a.bmp --up y --assets b --assets c";
     assert_eq!(render(line).reading.assets, folders);
+    assert_eq!(render(line).reading.up, Some(Up::Y));
     match parsed("halflight check a.dat --assets b --assets c d.dat") {
         Ok(Command::Check(check)) => {
             assert_eq!(check.reading.assets, folders);

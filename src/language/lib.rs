@@ -39,7 +39,7 @@ mod view;
 mod whitted;
 mod words;
 mod written;
-mod xml;
+pub mod xml;
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -68,7 +68,6 @@ pub use saved::{SavedView, view_name};
 pub use structure::{
     Addition, Neighbour, NewNode, Placement, Pose, StructureEdits, StructureError,
 };
-pub use xml::{ShownMesh, Up, around_mesh};
 
 /// Declares the languages, one per line, by folder name and file extension. A folder
 /// provides `Source`, `errors_of_beginning`, `tree_bytes`, `write`, `LEAVES_KEEP_TO_LINES`,

@@ -7,7 +7,7 @@ use super::keymap::Keymap;
 use super::pixels::Pixels;
 use super::terminal::{Choice, ColourDepth, Mouse};
 use super::theme::Theme;
-use language::Up;
+use assets::Up;
 use scene::Rendering;
 use watch::Method;
 

@@ -282,3 +282,46 @@ fn a_mesh_from_a_named_folder_uses_the_library_there() {
         );
     }
 }
+
+/// Files of the same bytes are different meshes if their names say so.
+#[test]
+fn the_extension_tells_the_format() {
+    let place = Place::new();
+    let stl = "solid a\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\n";
+    for name in ["a.stl", "b.STL", "c.obj", "d"] {
+        place.write(name, stl);
+    }
+    let names = ["a.stl", "b.STL", "c.obj", "d"];
+    let loaded = Assets::new(&[]).read(&place.wanted_meshes(&names));
+    let [a, b] = ["a.stl", "b.STL"].map(|name| model(&loaded, name));
+    assert!(Arc::ptr_eq(&a, &b));
+    for name in ["c.obj", "d"] {
+        assert!(
+            matches!(loaded.meshes.get(name), Some(Err(NoMesh::Malformed(_)))),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn a_scene_around_a_mesh_has_a_name_of_its_own() {
+    let place = Place::new();
+    place.write("a.obj", TRIANGLE);
+    place.write("a.mtl", "newmtl a\nKd 0 1 0\n");
+    let mut assets = Assets::new(&[]);
+    let made = assets.scene_of_mesh(&place.at("a.obj"), None);
+    assert_eq!(made.path, place.at("a.xml"));
+    assert_eq!(
+        made.summary,
+        "1 triangle, y up, on a ground with two lights"
+    );
+    assert!(made.is_readable && made.text.contains("name=\"a.obj\"/>"));
+    for taken in ["a.xml", "a-2.xml"] {
+        place.write(taken, "");
+    }
+    let made = assets.scene_of_mesh(&place.at("a.obj"), Some(Up::Z));
+    assert_eq!(made.path, place.at("a-3.xml"));
+    assert!(made.summary.contains("z up"));
+    let made = assets.scene_of_mesh(&place.at("none.stl"), None);
+    assert!(!made.is_readable && made.text.contains("name=\"none.stl\""));
+}

@@ -43,13 +43,15 @@ pub(super) fn picture(
         let needed_by = part.needs();
         return Err(Error::Incomplete { needed_by });
     }
-    let Loaded { source, read, .. } = loaded;
+    let Loaded {
+        path, source, read, ..
+    } = loaded;
     let still = tracing.still(scene, read.images, work.target.format.frames())?;
     let settings = &still.job.settings;
     if let Some(reason) = work.target.format.refuses(settings.traced().size()) {
         if let (None, None, Some(span)) = (tracing.region, tracing.size, loaded.size) {
             let error = no_such_size(span, &reason);
-            messages.findings(&work.scene, source.text(), &[error]);
+            messages.findings(&path, source.text(), &[error]);
             return Err(Error::Invalid { errors: 1 });
         }
         let option = tracing.region.map_or("--size", |_| "--region");

@@ -39,15 +39,16 @@ const LAMP: DVec3 = DVec3::new(2.2, -2.0, 3.4);
 const WINDOW: DVec3 = DVec3::new(-3.0, -2.4, 1.6);
 
 /// How much of the picture the mesh may fill.
-const FILLED: f64 = 0.86;
+const FILLED: f64 = 0.92;
 
 /// The side of the ground, in radii of the sphere around the mesh.
-const GROUND: f64 = 16.0;
+const GROUND: f64 = 40.0;
 
 /// The sizes of meshes that a view can frame.
 const SIZES: std::ops::Range<f64> = 1e-100..1e100;
 
-/// Writes a scene that shows a mesh on a ground, with two lights and a view that frames it.
+/// Writes a scene that shows a mesh on a ground, with two lights, ambient light and a view that frames
+/// it.
 pub fn around_mesh(mesh: &ShownMesh<'_>) -> String {
     let unit = Aabb {
         min: -DVec3::ONE,
@@ -90,8 +91,8 @@ pub fn around_mesh(mesh: &ShownMesh<'_>) -> String {
     }
     text.push_str(LIGHTS);
     for (name, colour, place) in [
-        ("lamp", "r=\"0.85\" g=\"0.78\" b=\"0.66\"", lamp),
-        ("window", "r=\"0.32\" g=\"0.38\" b=\"0.48\"", window),
+        ("lamp", "r=\"0.8\" g=\"0.74\" b=\"0.64\"", lamp),
+        ("window", "r=\"0.26\" g=\"0.31\" b=\"0.4\"", window),
     ] {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "    <light type=\"point\" name=\"{name}\">");
@@ -124,15 +125,13 @@ const BEGINNING: &str = "\
     <!-- The mesh in its own coordinates. -->
 ";
 
-const STONE: &str = "\
-    <material type=\"blinn\" name=\"stone\">
+const STONE: &str = "    <material type=\"blinn\" name=\"stone\">
       <diffuse r=\"0.42\" g=\"0.44\" b=\"0.5\"/>
       <specular value=\"0.1\"/>
     </material>
 ";
 
-const CLAY: &str = "\
-    <material type=\"blinn\" name=\"clay\">
+const CLAY: &str = "    <material type=\"blinn\" name=\"clay\">
       <diffuse r=\"0.75\" g=\"0.28\" b=\"0.16\"/>
       <specular value=\"0.3\"/>
       <glossiness value=\"60\"/>
@@ -140,6 +139,9 @@ const CLAY: &str = "\
 ";
 
 const LIGHTS: &str = "
+    <light type=\"ambient\" name=\"sky\">
+      <intensity r=\"0.14\" g=\"0.16\" b=\"0.19\"/>
+    </light>
     <!-- A warm light from the upper right, and a cool one that fills its shadows. -->
 ";
 

@@ -20,7 +20,11 @@ fn file(written: Written, header: &str, rows: &str) -> Vec<u8> {
         Written::Little => "binary_little_endian",
         Written::Big => "binary_big_endian",
     };
-    let mut file = format!("ply\nformat {format} 1.0\n{}\nend_header\n", header.trim_end()).into_bytes();
+    let mut file = format!(
+        "ply\nformat {format} 1.0\n{}\nend_header\n",
+        header.trim_end()
+    )
+    .into_bytes();
     for row in rows.lines() {
         for value in row.split_whitespace() {
             let (value, kind) = value.split_once(':').unwrap_or((value, "f32"));
@@ -380,11 +384,11 @@ fn hostile_files_are_refused_at_their_places() {
                 "element a 18446744073709551615\nproperty list uint double b\n",
                 "4294967295:u32",
             ),
-            "line 6, column 1: the file ends in element 0 of 18446744073709551615 (byte 107)",
+            "line 5, column 1: the file ends in element 0 of 18446744073709551615 (byte 107)",
         ),
         (
             file(Written::Text, "element a 18446744073709551615\n", ""),
-            "line 5, column 1: the file has no faces that can be used",
+            "line 4, column 1: the file has no faces that can be used",
         ),
         (
             file(Written::Text, &vertices, SQUARE),

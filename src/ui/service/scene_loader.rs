@@ -13,10 +13,10 @@ use crate::msg::{Msg, Polled};
 use crate::queue::{Ended, Service};
 use crate::recovery;
 use crate::scene_reading::{Baseline, Opened, Reading, SceneFolder};
-use assets::{Assets, MeshScene, is_mesh};
+use assets::{Assets, MeshScene, Up, is_mesh};
 use document::Document;
 use file::ReadError;
-use language::{Language, Up};
+use language::Language;
 use scene::Meshes;
 use watch::Method;
 

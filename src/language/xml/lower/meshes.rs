@@ -18,7 +18,7 @@ use scene::{
 use text::{Cited, Diagnostic, Span};
 
 /// The expected name of such an object, for messages.
-const EXPECTED: &str = "a mesh file: .obj";
+const EXPECTED: &str = "a mesh file: .obj, .ply or .stl";
 
 /// What it costs if a mesh cannot be read.
 const LEFT_OUT: &str = "the object is left out";

@@ -16,7 +16,7 @@ use scene::{
 const CORNERS: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 /// A mesh with this name, whose libraries all have the same content.
-fn meshes(name: &str, mesh: &str, library: &str) -> Meshes {
+pub(super) fn meshes(name: &str, mesh: &str, library: &str) -> Meshes {
     let read = obj::read(mesh.as_bytes(), |_| Ok::<_, String>(library));
     let model = read.unwrap_or_else(|errors| panic!("{mesh}: {errors:?}"));
     [(name.to_owned(), Ok(Arc::new(model)))]

@@ -1,5 +1,6 @@
 //! Tests of the meaning of `.xml` texts.
 
+mod around_mesh;
 mod edits;
 mod errors;
 mod meaning;

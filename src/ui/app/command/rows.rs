@@ -51,7 +51,7 @@ pub(crate) const ROWS: &[CommandRow] = &[
     CommandRow::new(&["view reset"], Nothing(|| Run::does(|shared| shared.pictures.reset_view())), "reset to the scene's view").key("reset-view"),
     CommandRow::new(&["size"], Said(" WxH", size), "set the picture size in the scene").also("resolution dimensions width height"),
     CommandRow::new(&["set"], Said(" KEY [VALUE|default]", set), "write a render setting into the scene, by default the one in use"),
-    CommandRow::new(&["mesh"], File(|file| Run::does(move |shared| select::add_mesh(shared, file.as_deref()))), "add the mesh of an .obj FILE, named as from the scene").also("model import"),
+    CommandRow::new(&["mesh"], File(|file| Run::does(move |shared| select::add_mesh(shared, file.as_deref()))), "add the mesh of an .obj, .ply or .stl FILE, named as from the scene").also("model import"),
     CommandRow::new(&["show uv"], Nothing(|| Run::does(|shared| display::show(shared, Some(Aov::Uv)))), "show texture coordinates: u red, v green"),
     CommandRow::new(&["show side"], Nothing(|| Run::does(|shared| display::show(shared, Some(Aov::Side)))), "show sides of surfaces: front blue, back orange"),
     CommandRow::new(&["exposure"], Said(" STOPS", exposure), "set the exposure of the display, in stops").also("brightness"),

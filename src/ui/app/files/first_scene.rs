@@ -7,7 +7,6 @@ use super::polling::complain_of_polling;
 use super::reading::{announce_new, note_recent, watch};
 use super::recent::list_recent;
 use super::recover::look_for_kept;
-use super::replacing::request_scene;
 use crate::app::shared::assets::Assets;
 use crate::app::shared::cursor::Names;
 use crate::app::shared::inspection::Inspection;
@@ -131,7 +130,10 @@ pub(crate) fn open(opening: Opening) -> (Shared, Vec<Effect>) {
         list_recent(&mut shared, opening.recent);
     }
     let mut effects = match mesh {
-        Some(mesh) => request_scene(&mut shared, mesh),
+        Some(mesh) => {
+            let now = (shared.document.revision(), shared.pictures.view);
+            vec![shared.disk.request(mesh, opening.language, now)]
+        }
         None => watch(&shared),
     };
     let lowered = text::lowered(&mut shared);

@@ -88,6 +88,8 @@ pub(crate) fn other_scene_read(
             let effects = replace_scene(shared, Some(made.path), document, OnDisk::New, None);
             let (mesh, name) = (file_name(&path), shared.disk.name());
             let save = shared.key_for("save");
+            // That it is new is said with the rest.
+            shared.overlays.message = None;
             shared.say(format!("{mesh}: {}; {save} writes {name}", made.summary));
             return effects;
         }

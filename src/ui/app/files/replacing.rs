@@ -28,8 +28,7 @@ pub(super) fn request_scene(shared: &mut Shared, path: PathBuf) -> Vec<Effect> {
         return Vec::new();
     }
     let now = (shared.document.revision(), shared.pictures.view);
-    shared.disk.requested = Some((path.clone(), now));
-    vec![Effect::Open(path, language)]
+    vec![shared.disk.request(path, language, now)]
 }
 
 /// Starts a new scene without a file.

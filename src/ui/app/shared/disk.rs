@@ -9,6 +9,7 @@ use crate::msg::{Effect, Timer};
 use crate::scene_reading::{Baseline, SceneFolder};
 use crate::text_width::file_name;
 use file::ReadError;
+use language::Language;
 use scene::Camera;
 use text::Findings;
 
@@ -157,6 +158,12 @@ impl Disk {
     pub(crate) fn wait(&mut self, time: Duration) -> Vec<Effect> {
         self.settle = Settle::Waiting;
         vec![Effect::Later(time, Timer::Settled)]
+    }
+
+    /// Requests another scene to replace this one, with what may be given up for it.
+    pub(crate) fn request(&mut self, path: PathBuf, language: Language, now: GivenUp) -> Effect {
+        self.requested = Some((path.clone(), now));
+        Effect::Open(path, language)
     }
 
     /// Ends a request for this path; returns what may be given up.

@@ -60,6 +60,34 @@ scripts! {
         ray().play(":new obj<Enter> | says new takes .ray, .dat or .xml");
     };
 
+    a_mesh_is_opened_in_a_new_scene: scene("a.stl", "").with("xml", Language::Xml.template())
+        .opened(|opening| {
+            opening.language = Language::Xml;
+            opening.text = OpeningText::AroundMesh(84);
+        })
+        .play(r"
+            | does open a.stl | not does watch
+            w                    | says still opening a.stl…
+            @opened a.stl around xml | does watch a.xml | does look for kept | text xml | path a.xml
+            | disk new | says a.stl: 2 triangles; w writes a.xml | language xml | not dirty
+            w                    | does save a.xml | writes xml | over nothing
+        ");
+
+    a_mesh_that_is_not_there_ends_the_program: scene("a.ply", "")
+        .opened(|opening| {
+            opening.language = Language::Xml;
+            opening.text = OpeningText::AroundMesh(84);
+        })
+        .play(r"
+            @unopened a.ply | does quit
+        ");
+
+    a_mesh_takes_the_place_of_the_scene: ray().with("xml", Language::Xml.template()).play(r"
+        :e b.PLY<Enter>          | does open b.PLY
+        @opened b.PLY around xml | text xml | path b.xml | disk new
+        | says b.PLY: 2 triangles; w writes b.xml
+    ");
+
     another_scene_replaces_everything_that_belongs_to_this_one: ray().with("dat", dat::SCENE).play(r"
         jjjel<Esc>u<F5>
         @started full 1

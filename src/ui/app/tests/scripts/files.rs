@@ -6,6 +6,7 @@ use crate::msg::{SaveId, SaveOutcome};
 use crate::recovery::tests::offer;
 use crate::recovery::{Found, Offer};
 use crate::scene_reading::{Baseline, News, Opened};
+use ::assets::MeshScene;
 use document::Document;
 use file::ReadError;
 use scene::Meshes;
@@ -74,10 +75,19 @@ impl Session {
         Ok(recovered(Some(offer), Vec::new()))
     }
 
-    /// What is found in place of the scene: nothing for `new`, kept edits, or a text.
+    /// What is found in place of the scene: nothing for `new`, kept edits, a text, or one made `around` a
+    /// mesh.
     pub(super) fn other(&self, name: &str, rest: &str) -> Result<Opened, String> {
         if rest == "new" {
             return Ok(Opened::New);
+        }
+        if let Some(text) = rest.strip_prefix("around ") {
+            return Ok(Opened::AroundMesh(MeshScene {
+                path: Path::new(name).with_extension("xml"),
+                text: self.text_of(text)?.to_string(),
+                summary: "2 triangles".to_owned(),
+                is_readable: true,
+            }));
         }
         if let Some(kept) = rest.strip_prefix("kept ") {
             return Ok(Opened::Kept(self.text_of(kept)?));
