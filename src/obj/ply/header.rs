@@ -1,155 +1,15 @@
-//! The header of a `.ply` file: what its elements are, and how they are written.
+//! Reads the header of a `.ply` file.
 
 use super::super::findings::{File, Findings};
 use super::super::lines::{Fault, Place, Spot, Word};
+use super::elements::{Column, Element, Encoding, Kind, NAMES, Scalar};
+use super::header_lines::{Line, Lines};
 
 /// The maximum number of elements and of properties in all, which take more memory than their lines.
 const MOST: usize = 1000;
 
 /// The keywords of a header.
 const KEYWORDS: &str = "format, comment, obj_info, element, property or end_header";
-
-/// How the values behind the header are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Encoding {
-    Text,
-    LittleEndian,
-    BigEndian,
-}
-
-/// The type of a value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Scalar {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-}
-
-/// What each row of an element consists of, in this order.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Column {
-    /// A value with what it is for: [`X`] and so on; `None` if it is not used.
-    One(Scalar, Option<usize>),
-    /// The number of items, and so many.
-    List {
-        count: Scalar,
-        item: Scalar,
-        /// Whether the items are the vertices of a face.
-        is_face: bool,
-    },
-}
-
-/// What a value of a vertex is for. Coordinates are followed by those of the normal and of the texture.
-pub(super) const X: usize = 0;
-pub(super) const NORMAL: usize = 3;
-pub(super) const UV: usize = 6;
-/// The number of these.
-pub(super) const USES: usize = 8;
-
-/// The names of what is used of a vertex.
-const NAMES: [&[&str]; USES] = [
-    &["x"],
-    &["y"],
-    &["z"],
-    &["nx"],
-    &["ny"],
-    &["nz"],
-    &["s", "u", "texture_u", "texture_s"],
-    &["t", "v", "texture_v", "texture_t"],
-];
-
-/// What is called so in a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
-    Vertex,
-    Face,
-    /// It is skipped.
-    Other,
-}
-
-impl Kind {
-    /// The word for a row of it.
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::Vertex => "vertex",
-            Self::Face => "face",
-            Self::Other => "element",
-        }
-    }
-}
-
-/// A kind of rows.
-#[derive(Debug)]
-pub(super) struct Element {
-    pub(super) kind: Kind,
-    /// How many rows the file claims to have.
-    pub(super) count: u64,
-    pub(super) columns: Vec<Column>,
-}
-
-impl Element {
-    /// Whether its rows have all of these values.
-    pub(super) fn has(&self, uses: std::ops::Range<usize>) -> bool {
-        let has = |wanted| {
-            let is =
-                |column: &Column| matches!(column, Column::One(_, Some(own)) if *own == wanted);
-            self.columns.iter().any(is)
-        };
-        uses.into_iter().all(has)
-    }
-
-    /// Whether its rows have the vertices of a face.
-    pub(super) fn lists_corners(&self) -> bool {
-        let lists = |column: &Column| matches!(column, Column::List { is_face: true, .. });
-        self.columns.iter().any(lists)
-    }
-
-    /// The least bytes of a row.
-    pub(super) fn least(&self, encoding: Encoding) -> usize {
-        let column = |column: &Column| match (encoding, column) {
-            // A digit and a blank.
-            (Encoding::Text, _) => 2,
-            (_, Column::One(scalar, _)) => scalar.size(),
-            (_, Column::List { count, .. }) => count.size(),
-        };
-        self.columns.iter().map(column).sum()
-    }
-}
-
-impl Scalar {
-    fn named(name: &[u8]) -> Option<Self> {
-        Some(match name {
-            b"char" | b"int8" => Self::I8,
-            b"uchar" | b"uint8" => Self::U8,
-            b"short" | b"int16" => Self::I16,
-            b"ushort" | b"uint16" => Self::U16,
-            b"int" | b"int32" => Self::I32,
-            b"uint" | b"uint32" => Self::U32,
-            b"float" | b"float32" => Self::F32,
-            b"double" | b"float64" => Self::F64,
-            _ => return None,
-        })
-    }
-
-    /// Its bytes where it is not text.
-    pub(super) const fn size(self) -> usize {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::I32 | Self::U32 | Self::F32 => 4,
-            Self::F64 => 8,
-        }
-    }
-
-    const fn is_integer(self) -> bool {
-        !matches!(self, Self::F32 | Self::F64)
-    }
-}
 
 /// A header.
 #[derive(Debug)]
@@ -204,7 +64,7 @@ pub(super) fn read(file: File<'_>, findings: &mut Findings) -> Result<Header, Fa
                 let name = line.word(2);
                 if matches!(name.text, b"red" | b"diffuse_red") && !has_colours {
                     has_colours = true;
-                    let fault = Fault::new(name, "the colours of the mesh are not drawn", "");
+                    let fault = Fault::new(name, "the colours of the mesh are not drawn", "no colours");
                     let fault = fault.costing("the material of the object gives its colour");
                     findings.warn(file, fault);
                 }
@@ -308,74 +168,5 @@ fn end_of<'t>(file: File<'t>, lines: &Lines<'t>) -> Word<'t> {
             line: lines.next.line.saturating_sub(1).max(1),
             at,
         }),
-    }
-}
-
-/// The lines of a header. All end as the first does: the values behind the last one may begin with any
-/// bytes.
-struct Lines<'t> {
-    bytes: &'t [u8],
-    end: u8,
-    next: Place,
-}
-
-impl<'t> Lines<'t> {
-    fn of(bytes: &'t [u8]) -> Self {
-        let is_end = |byte: &&u8| matches!(**byte, b'\n' | b'\r');
-        let first = bytes.iter().position(|byte| is_end(&byte));
-        let end = first.map_or(b'\n', |at| match bytes[at..] {
-            [b'\r', b'\n', ..] => b'\n',
-            [end, ..] => end,
-            [] => b'\n',
-        });
-        Self {
-            bytes,
-            end,
-            next: Place { line: 1, at: 0 },
-        }
-    }
-}
-
-impl<'t> Iterator for Lines<'t> {
-    type Item = (Place, &'t [u8]);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let start = self.next;
-        let rest = self.bytes.get(start.at..).filter(|rest| !rest.is_empty())?;
-        let length = rest.iter().position(|&byte| byte == self.end);
-        let length = length.unwrap_or(rest.len());
-        self.next = Place {
-            line: start.line + 1,
-            at: self.bytes.len().min(start.at + length + 1),
-        };
-        Some((start, rest[..length].trim_ascii_end()))
-    }
-}
-
-/// A line of a header.
-struct Line<'t> {
-    start: Place,
-    text: &'t [u8],
-}
-
-impl<'t> Line<'t> {
-    fn new(start: Place, text: &'t [u8]) -> Self {
-        Self { start, text }
-    }
-
-    /// A word by its number; the empty place behind the line if there are fewer.
-    fn word(&self, number: usize) -> Word<'t> {
-        let words = self.text.split(u8::is_ascii_whitespace);
-        let mut words = words.filter(|word| !word.is_empty());
-        let text = words.nth(number);
-        let text = text.unwrap_or(&self.text[self.text.len()..]);
-        let offset = text.as_ptr() as usize - self.text.as_ptr() as usize;
-        Word {
-            text,
-            place: Spot::from(Place {
-                at: self.start.at + offset,
-                ..self.start
-            }),
-        }
     }
 }

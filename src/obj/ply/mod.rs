@@ -1,7 +1,9 @@
 //! `.ply`: vertices and faces as elements with properties, after a header that names these. Elements and
 //! properties that a mesh has no use for are skipped.
 
+mod elements;
 mod header;
+mod header_lines;
 mod values;
 
 use glam::{DVec2, DVec3};
@@ -10,7 +12,8 @@ use super::building::Building;
 use super::findings::File;
 use super::lines::{Fault, MOST, Place, Spot, Word};
 use super::{Finding, MAX_TRIANGLES, Model};
-use header::{Column, Element, Encoding, Header, Kind, NORMAL, Scalar, USES, UV, X};
+use elements::{Column, Element, Encoding, Kind, NORMAL, Scalar, USES, UV, X};
+use header::Header;
 use values::{Numbers, Stop, Text, Values};
 
 /// The maximum number of vertices, of which more than three for each triangle would be of no use.

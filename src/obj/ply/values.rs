@@ -1,7 +1,7 @@
 //! The values behind the header of a `.ply` file, as text or as numbers.
 
 use super::super::lines::{Fault, Lines, Place, Spot, Word};
-use super::header::{Column, Element, Scalar};
+use super::elements::{Column, Element, Scalar};
 use text::leading_number;
 
 /// Why a row cannot be read.

@@ -189,7 +189,7 @@ fn a_mesh_that_cannot_be_read_is_an_error_at_its_place() {
         (
             "a.ply",
             65,
-            "error: a.ply:9:1: a.ply (obj): the file ends in face 2 of 4 (byte 253)",
+            "error: a.ply:9:1: a.ply (obj): the file ends in face 3 of 4 (byte 254)",
         ),
         (
             "b.ply",

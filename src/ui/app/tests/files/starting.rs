@@ -12,6 +12,14 @@ fn new(name: &str) -> Stage<'_> {
     stage.opened(|opening| opening.text = OpeningText::New)
 }
 
+/// The stage of a mesh that is still to be read.
+fn mesh(name: &str) -> Stage<'_> {
+    scene("a.xml", "").opened(|opening| {
+        opening.path = Some(name.into());
+        opening.text = OpeningText::AroundMesh(84);
+    })
+}
+
 scripts! {
     a_file_that_does_not_exist_is_a_new_scene_of_its_language: for name in
         ["new.ray", "new.dat", "new.xml"]
@@ -60,11 +68,7 @@ scripts! {
         ray().play(":new obj<Enter> | says new takes .ray, .dat or .xml");
     };
 
-    a_mesh_is_opened_in_a_new_scene: scene("a.stl", "").with("xml", Language::Xml.template())
-        .opened(|opening| {
-            opening.language = Language::Xml;
-            opening.text = OpeningText::AroundMesh(84);
-        })
+    a_mesh_is_opened_in_a_new_scene: mesh("a.stl").with("xml", Language::Xml.template())
         .play(r"
             | does open a.stl | not does watch
             w                    | says still opening a.stl…
@@ -73,11 +77,7 @@ scripts! {
             w                    | does save a.xml | writes xml | over nothing
         ");
 
-    a_mesh_that_is_not_there_ends_the_program: scene("a.ply", "")
-        .opened(|opening| {
-            opening.language = Language::Xml;
-            opening.text = OpeningText::AroundMesh(84);
-        })
+    a_mesh_that_is_not_there_ends_the_program: mesh("a.ply")
         .play(r"
             @unopened a.ply | does quit
         ");
