@@ -40,10 +40,11 @@ impl Assets {
     pub fn scene_of_mesh(&mut self, mesh: &Path, up: Option<Up>) -> MeshScene {
         let path = free_path(mesh);
         let name = mesh.file_name().unwrap_or_default().to_string_lossy();
-        let up = up.unwrap_or(match Format::of_path(mesh) {
+        let custom = match Format::of_path(mesh) {
             Some(Format::Stl) => Up::Z,
             _ => Up::Y,
-        });
+        };
+        let up = up.unwrap_or(custom);
         let named = NamedFile {
             path: name.to_string(),
             kind: FileKind::Mesh,

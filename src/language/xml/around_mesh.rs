@@ -105,11 +105,11 @@ pub fn around_mesh(mesh: &ShownMesh<'_>) -> String {
     element(&mut text, "    <target", |text| xyz(text, target));
     element(&mut text, "    <up", |text| xyz(text, mesh.up.axis()));
     element(&mut text, "    <fov", |text| {
-        attribute(text, "value", ANGLE)
+        attribute(text, "value", ANGLE);
     });
     for (name, size) in ["    <width", "    <height"].into_iter().zip(SIZE) {
         element(&mut text, name, |text| {
-            attribute(text, "value", size.into())
+            attribute(text, "value", size.into());
         });
     }
     text.push_str("  </camera>\n</xml>\n");

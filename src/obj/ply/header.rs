@@ -64,7 +64,8 @@ pub(super) fn read(file: File<'_>, findings: &mut Findings) -> Result<Header, Fa
                 let name = line.word(2);
                 if matches!(name.text, b"red" | b"diffuse_red") && !has_colours {
                     has_colours = true;
-                    let fault = Fault::new(name, "the colours of the mesh are not drawn", "no colours");
+                    let fault =
+                        Fault::new(name, "the colours of the mesh are not drawn", "no colours");
                     let fault = fault.costing("the material of the object gives its colour");
                     findings.warn(file, fault);
                 }
@@ -138,7 +139,7 @@ fn property(line: &Line<'_>, of: Kind) -> Result<Column, Fault> {
         let scalar = scalar(1)?;
         let name = line.word(2).text;
         let is = |names: &&[&str]| names.iter().any(|known| known.as_bytes() == name);
-        let role = NAMES.iter().position(|names| is(&names));
+        let role = NAMES.iter().position(is);
         return Ok(Column::One(scalar, role.filter(|_| of == Kind::Vertex)));
     }
     let (count, item) = (scalar(2)?, scalar(3)?);

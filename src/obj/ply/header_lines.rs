@@ -17,9 +17,8 @@ impl<'t> Lines<'t> {
         let is_end = |byte: &&u8| matches!(**byte, b'\n' | b'\r');
         let first = bytes.iter().position(|byte| is_end(&byte));
         let end = first.map_or(b'\n', |at| match bytes[at..] {
-            [b'\r', b'\n', ..] => b'\n',
-            [end, ..] => end,
-            [] => b'\n',
+            [b'\r', ref rest @ ..] if rest.first() != Some(&b'\n') => b'\r',
+            _ => b'\n',
         });
         Self {
             bytes,
@@ -61,7 +60,7 @@ impl<'t> Line<'t> {
         let words = self.text.split(u8::is_ascii_whitespace);
         let mut words = words.filter(|word| !word.is_empty());
         let text = words.nth(number);
-        let text = text.unwrap_or(&self.text[self.text.len()..]);
+        let text = text.unwrap_or_else(|| &self.text[self.text.len()..]);
         let offset = text.as_ptr() as usize - self.text.as_ptr() as usize;
         Word {
             text,

@@ -275,11 +275,19 @@ fn lines_of_text_are_checked_word_by_word() {
     }
 }
 
-/// What cannot be used as a whole, and the place that says why.
+/// Checks what is said of files that cannot be used as a whole.
+fn check_refused(cases: Vec<(Vec<u8>, &str)>) {
+    for (bytes, expected) in cases {
+        let shown = String::from_utf8_lossy(&bytes[..bytes.len().min(200)]).into_owned();
+        let errors = read_file(&bytes).expect_err(&shown);
+        let last = errors.last().expect("an error");
+        assert_eq!(last.to_string(), expected, "{shown}");
+    }
+}
+
 #[test]
-fn hostile_files_are_refused_at_their_places() {
-    let vertices = format!("element vertex 4\n{XYZ}");
-    let cases: Vec<(Vec<u8>, &str)> = vec![
+fn hostile_headers_are_refused_at_their_places() {
+    check_refused(vec![
         (b"".to_vec(), "line 1, column 1: `` begins no .ply file"),
         (
             b"\0\xff\0".to_vec(),
@@ -324,6 +332,13 @@ fn hostile_files_are_refused_at_their_places() {
                 .into_bytes(),
             "line 1002, column 1: more than 1000 elements",
         ),
+    ]);
+}
+
+#[test]
+fn hostile_rows_are_refused_at_their_places() {
+    let vertices = format!("element vertex 4\n{XYZ}");
+    check_refused(vec![
         (
             file(
                 Written::Little,
@@ -402,13 +417,7 @@ fn hostile_files_are_refused_at_their_places() {
             ),
             "line 9, column 1: the file has no faces that can be used",
         ),
-    ];
-    for (bytes, expected) in cases {
-        let shown = String::from_utf8_lossy(&bytes[..bytes.len().min(200)]).into_owned();
-        let errors = read_file(&bytes).expect_err(&shown);
-        let last = errors.last().expect("an error");
-        assert_eq!(last.to_string(), expected, "{shown}");
-    }
+    ]);
 }
 
 #[test]

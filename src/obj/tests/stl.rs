@@ -79,17 +79,28 @@ fn text_and_numbers_are_told_apart_by_the_size() {
     }
 }
 
-/// The file, whether it can be read, and all that is said of it.
+/// Checks whether files can be read, and what is said of them last.
+fn check_said<const N: usize>(cases: [(Vec<u8>, bool, &str); N]) {
+    for (bytes, is_read, said) in cases {
+        let shown = String::from_utf8_lossy(&bytes[..bytes.len().min(300)]).into_owned();
+        let read = read_file(&bytes);
+        let found = match &read {
+            Ok(model) => messages(&model.warnings),
+            Err(errors) => messages(errors),
+        };
+        assert_eq!(read.is_ok(), is_read, "{shown} {found:?}");
+        let last = found.last().map_or("", String::as_str);
+        assert!(
+            last.ends_with(said) && said.is_empty() == last.is_empty(),
+            "{shown}\n{last}\n{said}"
+        );
+    }
+}
+
 #[test]
-fn what_one_facet_has_wrong_costs_only_that() {
+fn what_one_facet_of_a_text_has_wrong_costs_only_that() {
     let changed = |from: &str, to: &str| text(&[LEFT, RIGHT]).replacen(from, to, 1).into_bytes();
-    let wrong = |value: f32, axis: usize| {
-        let mut facet = LEFT;
-        facet[1][axis] = value;
-        numbers("", 2, &[RIGHT, facet])
-    };
-    let flat = [[1.0; 3], [1.0; 3], [0.0; 3]];
-    for (bytes, is_read, said) in [
+    check_said([
         (
             changed("vertex 1 0 0", "vertex nan 0 0"),
             true,
@@ -126,6 +137,18 @@ fn what_one_facet_has_wrong_costs_only_that() {
             "line 3, column 3: `inner` is ignored",
         ),
         (changed(" endfacet\n", ""), true, ""),
+    ]);
+}
+
+#[test]
+fn what_one_facet_of_numbers_has_wrong_costs_only_that() {
+    let wrong = |value: f32, axis: usize| {
+        let mut facet = LEFT;
+        facet[1][axis] = value;
+        numbers("", 2, &[RIGHT, facet])
+    };
+    let flat = [[1.0; 3], [1.0; 3], [0.0; 3]];
+    check_said([
         (
             wrong(f32::NAN, 0),
             true,
@@ -186,20 +209,7 @@ fn what_one_facet_has_wrong_costs_only_that() {
             false,
             "line 1, column 1: this is no .stl file",
         ),
-    ] {
-        let shown = String::from_utf8_lossy(&bytes[..bytes.len().min(300)]).into_owned();
-        let read = read_file(&bytes);
-        let found = match &read {
-            Ok(model) => messages(&model.warnings),
-            Err(errors) => messages(errors),
-        };
-        assert_eq!(read.is_ok(), is_read, "{shown} {found:?}");
-        let last = found.last().map_or("", String::as_str);
-        assert!(
-            last.ends_with(said) && said.is_empty() == last.is_empty(),
-            "{shown}\n{last}\n{said}"
-        );
-    }
+    ]);
 }
 
 #[test]

@@ -84,7 +84,7 @@ impl Session {
         if let Some(text) = rest.strip_prefix("around ") {
             return Ok(Opened::AroundMesh(MeshScene {
                 path: Path::new(name).with_extension("xml"),
-                text: self.text_of(text)?.to_string(),
+                text: self.text_of(text)?,
                 summary: "2 triangles".to_owned(),
                 is_readable: true,
             }));
