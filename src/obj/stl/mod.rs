@@ -2,6 +2,9 @@
 //!
 //! Corners are kept as they are written: they have no values that equal ones would share. Normals are not
 //! used, since those of the corners' order are the same.
+//!
+//! `stl_io` 0.11.0 takes anything that begins with `solid` for a text, gives no places, and is slower: 0.21 s
+//! instead of 0.07 s for a million facets as numbers, 1.5 s instead of 0.6 s as text.
 
 mod facets;
 

@@ -1,5 +1,7 @@
 //! Meshes and material libraries that scenes name.
 
+use std::os::unix::fs::symlink;
+
 use super::*;
 
 /// A mesh that fills the picture, in a scene lit by ambient light.
@@ -184,7 +186,7 @@ fn a_mesh_that_cannot_be_read_is_an_error_at_its_place() {
     place.write("c.stl", long);
     place.write("d.stl", "");
     place.write("e.obj", "v 0 0 0\n");
-    fs::create_dir(place.at("f.ply")).expect("a folder");
+    symlink("/dev/zero", place.at("f.ply")).expect("a link");
     for (mesh, code, expected) in [
         (
             "a.ply",
@@ -211,7 +213,7 @@ fn a_mesh_that_cannot_be_read_is_an_error_at_its_place() {
             65,
             "error: e.obj:1:8: e.obj (obj): the file has no faces that can be used",
         ),
-        ("f.ply", 66, "error: f.ply: is a folder, not a file"),
+        ("f.ply", 66, "error: f.ply: is a device, not a file"),
         ("none.ply", 66, "error: none.ply: no such file"),
     ] {
         let said = place.stderr(&format!("render {mesh} -o a.ppm"), code);
