@@ -11,7 +11,7 @@ pub use document::{edits, merge};
 pub use files::{mtl, obj, picture, ply, stl};
 pub use kept::{config, part, record, track};
 pub use keys::keys;
-pub use scene::{dat, ray, xml};
+pub use scene::{cse167, dat, ray, xml};
 
 /// A function that accepts any bytes.
 pub type Target = fn(&[u8]);
@@ -19,6 +19,7 @@ pub type Target = fn(&[u8]);
 /// All targets by name, which is also that of their corpus.
 pub const TARGETS: [(&str, Target); 15] = [
     ("ray", ray),
+    ("cse167", cse167),
     ("dat", dat),
     ("xml", xml),
     ("obj", obj),

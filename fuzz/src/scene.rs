@@ -16,6 +16,11 @@ pub fn dat(input: &[u8]) {
     read(Language::Dat, &String::from_utf8_lossy(input));
 }
 
+/// Reads a `.test` text.
+pub fn cse167(input: &[u8]) {
+    read(Language::Cse167, &String::from_utf8_lossy(input));
+}
+
 /// Reads a `.xml` text.
 pub fn xml(input: &[u8]) {
     read(Language::Xml, &String::from_utf8_lossy(input));

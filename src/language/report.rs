@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::schema::Field;
+use super::schema::{Field, Range};
 use text::{
     Diagnostic, Findings, NumberError, Severity, Span, concise, parse_number, without_suffix,
 };
@@ -52,7 +52,8 @@ pub(super) fn number_of(
     report: &mut Findings,
     what: impl Fn() -> String,
 ) -> f64 {
-    let read = if field.kind.is_size() {
+    let is_whole = field.kind.is_size() || field.allowed == Range::Identity;
+    let read = if is_whole {
         parse_number(token)
     } else {
         number(span, token, report, &what)

@@ -10,7 +10,7 @@ use super::{Language, Source};
 use crate::memory_estimate::scene_fits;
 use crate::node::{FileKind, object_at, place_of};
 use crate::rendering::{self, Around};
-use crate::schema::{Category, Field, Kind, Record};
+use crate::schema::{Category, Field, Kind, Makes, Record};
 use crate::view::{Numbers, beginning, line_ending};
 use crate::{FieldSpans, Lowered, NamedFile, Node, Nodes, SceneText, Visibility};
 use geometry::{Affine, Shape};
@@ -67,7 +67,12 @@ where
                 rendering::fields(settings, &L::defaults(&self.origins.own), &insertion, None)
             }
             _ => {
+                // An object of many commands has no fields of its own.
+                let has_fields = |record: &Record| {
+                    record.makes != Makes::State || !matches!(node, Node::Object(_))
+                };
                 let records = self.origins.records::<L>(node);
+                let records = records.filter(|(_, record)| has_fields(record));
                 records
                     .flat_map(|record| fields(&self.text, &self.tree, record))
                     .collect()

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 /// A rolling ground of `cells` × `cells` squares, two `tri` each, under one material.
-pub fn grid(cells: usize) -> String {
+pub(super) fn grid(cells: usize) -> String {
     let mut text = String::from(
         "# A rolling ground of many triangles in one mesh, seen from its edge.
 size 120 90

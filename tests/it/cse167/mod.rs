@@ -1,5 +1,6 @@
 //! `.test` scenes against a plain tracer of the language, pixel by pixel.
 
+mod checks;
 mod grid;
 mod plain;
 
@@ -20,8 +21,8 @@ const SCENES: [(&str, &str); 7] = [
     ("tower", include_str!("tower.test")),
 ];
 
-/// The 8-bit pixels of a scene by Whitted ray tracing, one sample each.
-fn pixels(name: &str, text: &str) -> Vec<[u8; 3]> {
+/// The width and the 8-bit pixels of a scene by Whitted ray tracing, one sample each.
+fn pixels(name: &str, text: &str) -> (usize, Vec<[u8; 3]>) {
     let mut source = Source::new(Language::Cse167, Arc::new(text.to_owned()));
     let lowered = source.lower(&Meshes::default()).expect("there is memory");
     let found = lowered.diagnostics;
@@ -51,19 +52,19 @@ fn pixels(name: &str, text: &str) -> Vec<[u8; 3]> {
     loop {
         woken.recv().expect("the worker runs");
         if let Some(frame) = renderer.latest().filter(|frame| frame.progress.complete) {
-            return frame.pixels.clone();
+            return (camera.size.width as usize, frame.pixels.clone());
         }
     }
 }
 
 #[test]
 fn pictures_are_those_of_a_plain_tracer() {
-    let grid = grid::grid(24);
+    let grid = grid::grid(8);
     let scenes = SCENES.into_iter().chain([("grid", &*grid)]);
     let mut wrong = Vec::new();
     for (name, text) in scenes {
         let picture = plain::trace(text);
-        let found = pixels(name, text);
+        let (_, found) = pixels(name, text);
         assert_eq!(found.len(), picture.pixels.len(), "{name}");
         for (at, (found, expected)) in found.iter().zip(&picture.pixels).enumerate() {
             let level = expected.map(|part| (part.clamp(0.0, 1.0) * 255.0).round());

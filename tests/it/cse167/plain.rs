@@ -6,20 +6,18 @@
 use glam::{DAffine3, DMat3, DVec3};
 
 /// A picture in linear, unclamped colour: `[red, green, blue]` row by row from the top left.
-pub struct Picture {
-    pub width: usize,
-    pub height: usize,
-    pub pixels: Vec<[f64; 3]>,
+pub(super) struct Picture {
+    pub(super) width: usize,
+    pub(super) pixels: Vec<[f64; 3]>,
 }
 
 /// Traces the scene of a well-formed text.
-pub fn trace(text: &str) -> Picture {
+pub(super) fn trace(text: &str) -> Picture {
     let scene = Scene::read(text);
     let [width, height] = scene.size;
     let pixels = (0..width * height).map(|at| scene.pixel(at % width, at / width));
     Picture {
         width,
-        height,
         pixels: pixels.collect(),
     }
 }

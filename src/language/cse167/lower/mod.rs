@@ -17,11 +17,12 @@ use crate::engine::identities::kind;
 use crate::engine::lines::Lines;
 use crate::engine::places::Places;
 use crate::engine::reader::{Reader, Reading};
+use crate::report::quoted;
 use crate::schema::Category;
 use objects::Meshes;
 use scene::{Integrator, Light, MAX_DEPTH, Object, Rendering, Rgb, Scene, Setting};
 use state::{Materials, State};
-use text::{Diagnostic, Findings, Span};
+use text::{Diagnostic, Findings, Span, is_integer};
 
 /// The depth of Whitted ray tracing where the text states none.
 const DEPTH: u32 = 5;
@@ -253,10 +254,11 @@ impl<'a> Lowering<'a> {
             return true;
         };
         let span = read.spans[0];
+        let word = span.of(self.reader.text);
         let range = |least: f64, most: u32| {
             let expected = format!("a whole number from {least} to {most}");
-            let message = format!("{}: must be {expected}", record.name);
-            let is_in = least <= number && number <= f64::from(most) && number.fract() == 0.0;
+            let is_in = least <= number && number <= f64::from(most) && is_integer(word);
+            let message = format!("{}: must be {expected}, not {}", record.name, quoted(word));
             (!is_in).then(|| Diagnostic::error(span, message, expected))
         };
         if *record == INTEGRATOR {
@@ -300,7 +302,7 @@ impl<'a> Lowering<'a> {
             self.reader.report.warning(|| {
                 Diagnostic::warning(
                     open,
-                    "pushTransform: is left open",
+                    "pushTransform: is never undone by popTransform",
                     "a popTransform behind it",
                 )
             });

@@ -14,13 +14,14 @@ use crate::cse167::schema::{
 use crate::engine::places::Place;
 use crate::engine::reader::Reading;
 use crate::node::Node;
+use crate::report::quoted;
 use crate::schema::{Category, Range, Record};
 use geometry::{
     ABSENT, Affine, Attribute, Ellipsoid, Instance, Mesh, MeshParts, Shape, Solid, Sphere,
     normalise,
 };
 use scene::{Emitter, Faces, Falloff, Light, Material, Object, Rgb, Shadows};
-use text::{Diagnostic, Span, counted};
+use text::{Diagnostic, Span, counted, is_integer};
 
 /// Where an object is, and what it is made of.
 #[derive(Clone, Copy, Debug)]
@@ -79,7 +80,7 @@ impl Lowering<'_> {
             let Some(toward) = normalise(transform.transform_vector3(vector)) else {
                 self.reader.report.error(|| {
                     let span = read.spans[0].to(read.spans[2]);
-                    let message = "directional: must not be zero";
+                    let message = "directional direction: must not be zero";
                     Diagnostic::error(span, message, "the direction towards the light")
                 });
                 self.lights.push(Light::point(DVec3::ZERO, Rgb::ZERO));
@@ -226,6 +227,22 @@ impl Lowering<'_> {
             return;
         };
         let record = read.record;
+        let text = self.reader.text;
+        let counts = [MAXVERTS, MAXVERTNORMS, TRI, TRI_NORMAL];
+        let mut words = read.spans.iter().filter(|_| counts.contains(record));
+        let is_count = |span: &&Span| {
+            let word = span.of(text);
+            is_integer(word) && !word.starts_with('-')
+        };
+        if let Some(bad) = words.find(|span| !is_count(span)) {
+            self.reader.report.error(|| {
+                let expected = "a whole number, 0 or more";
+                let word = quoted(bad.of(text));
+                let message = format!("{}: must be {expected}, not {word}", record.name);
+                Diagnostic::error(*bad, message, expected)
+            });
+            return;
+        }
         let pile = if [MAXVERTS, VERTEX, TRI].contains(record) {
             &mut self.meshes.plain
         } else {
@@ -240,24 +257,29 @@ impl Lowering<'_> {
             }
         } else if *record == TRI || *record == TRI_NORMAL {
             let count = pile.vertices.len();
-            let bad = numbers
-                .iter()
-                .position(|&index| !(0.0..count as f64).contains(&index));
-            if let Some(bad) = bad {
+            let noun = if *record == TRI {
+                "vertex"
+            } else {
+                "vertexnormal"
+            };
+            let mut is_known = true;
+            for (&index, span) in numbers.iter().zip(&read.spans) {
+                if index < count as f64 {
+                    continue;
+                }
+                is_known = false;
                 self.reader.report.error(|| {
-                    let noun = if *record == TRI {
-                        "vertex"
-                    } else {
-                        "vertexnormal"
+                    let message = format!("{}: there is no {noun} {index} above", record.name);
+                    let expected = format!("the number of a {noun} above, from 0");
+                    let hint = match count {
+                        0 => format!("no {noun} is given yet: it must come first"),
+                        1 => "given so far: 0".to_owned(),
+                        _ => format!("given so far: 0 to {}", count - 1),
                     };
-                    let message =
-                        format!("{}: there is no {noun} {} yet", record.name, numbers[bad]);
-                    let expected = match count {
-                        0 => format!("a {noun} command above"),
-                        _ => format!("the number of one above, 0 to {}", count - 1),
-                    };
-                    Diagnostic::error(read.spans[bad], message, expected)
+                    Diagnostic::error(*span, message, expected).with_hint(hint)
                 });
+            }
+            if !is_known {
                 return;
             }
             let corners = [0, 1, 2].map(|corner| numbers[corner] as u32);

@@ -85,7 +85,7 @@ impl Lowering<'_> {
             match self.state.pushed.pop() {
                 Some((_, below)) => self.state.transform = below,
                 None => self.reader.report.error(|| {
-                    let message = "popTransform: there is no pushTransform to undo";
+                    let message = "popTransform: there is no pushTransform left to undo";
                     Diagnostic::error(head, message, "as many as there are pushTransform above")
                 }),
             }
@@ -95,7 +95,7 @@ impl Lowering<'_> {
             let zero = vector.and_then(|by| (0..3).find(|&axis| by[axis] == 0.0));
             if let Some(axis) = zero {
                 self.reader.report.error(|| {
-                    let message = "scale: must not be 0";
+                    let message = format!("scale {}: must not be 0", ["x", "y", "z"][axis]);
                     Diagnostic::error(read.spans[axis], message, "a number other than 0")
                 });
             } else {
@@ -111,11 +111,7 @@ impl Lowering<'_> {
                 }
                 None => self.reader.report.error(|| {
                     let span = read.spans[0].to(read.spans[2]);
-                    Diagnostic::error(
-                        span,
-                        "rotate: its axis must not be zero",
-                        "an axis: x, y, z",
-                    )
+                    Diagnostic::error(span, "rotate axis: must not be zero", "an axis: x, y, z")
                 }),
             }
         } else {

@@ -1,1 +1,12 @@
 //! Tests of the meaning of `.test` texts.
+
+mod errors;
+mod properties;
+
+use crate::tests::read_as;
+use crate::{Language, Lowered, Source};
+use scene::Meshes;
+
+fn read(text: &str) -> (Source, Lowered) {
+    read_as(Language::Cse167, text, &Meshes::default())
+}
