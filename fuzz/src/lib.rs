@@ -17,7 +17,7 @@ pub use scene::{cse167, dat, ray, xml};
 pub type Target = fn(&[u8]);
 
 /// All targets by name, which is also that of their corpus.
-pub const TARGETS: [(&str, Target); 15] = [
+pub const TARGETS: [(&str, Target); 16] = [
     ("ray", ray),
     ("cse167", cse167),
     ("dat", dat),
