@@ -34,7 +34,13 @@ pub fn convert(source: &Source, scene: &Scene, to: Language) -> Result<Converted
         });
     }
     let own = scene;
-    let scene = &numbered(without_gamma(own));
+    let mut scene = numbered(without_gamma(own));
+    let asked = scene.setting.rendering;
+    if asked.whitted_depth.is_some() {
+        // Other languages have other defaults.
+        scene.to_mut().setting.rendering.depth = Some(asked.depth());
+    }
+    let scene = &*scene;
     let mut losses = Losses::new(source, scene, to);
     if let Some(loss) = gamma_loss(own) {
         losses.add(Of::Gamma, loss);

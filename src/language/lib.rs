@@ -284,9 +284,9 @@ pub struct Before<'a> {
 /// Whether an object is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Visibility {
-    /// Drawn.
+    /// It is.
     Shown,
-    /// Not drawn.
+    /// It is not.
     Hidden,
 }
 
@@ -372,8 +372,7 @@ pub trait SceneText: Editable + StructureEdits {
     fn name(&self, node: Node) -> String;
 
     /// The nesting depth of a node below other listed nodes.
-    fn depth(&self, node: Node) -> usize {
-        let _ = node;
+    fn depth(&self, _: Node) -> usize {
         0
     }
 
@@ -413,8 +412,7 @@ pub trait SceneText: Editable + StructureEdits {
     fn drawn(&self, object: usize) -> Option<u32>;
 
     /// Whether an object of the text only groups the objects in it.
-    fn is_group(&self, object: usize) -> bool {
-        let _ = object;
+    fn is_group(&self, _: usize) -> bool {
         false
     }
 
@@ -453,8 +451,7 @@ pub trait SceneText: Editable + StructureEdits {
     }
 
     /// The number of objects that use a material or a texture.
-    fn users(&self, node: Node) -> usize {
-        let _ = node;
+    fn users(&self, _: Node) -> usize {
         0
     }
 

@@ -7,8 +7,8 @@
 use super::losses::{Loss, Losses, Of};
 use super::surroundings::is_all_before;
 use scene::{
-    Camera, Dielectric, Emitter, Gloss, Highlight, Light, Material, Mirror, Pattern, Rgb, Scene,
-    Shadow, Texture, Tinted,
+    Camera, Dielectric, Emitter, Gloss, Highlight, Light, Material, Mirror, Pattern, RenderKey,
+    Rgb, Scene, Shadow, Texture, Tinted,
 };
 
 const ROUNDED: Loss = Loss {
@@ -55,7 +55,8 @@ fn has_same_view(scene: &Scene, written: &Scene) -> bool {
         ..*b
     };
     let [x, y] = [scene, written].map(|scene| scene.setting.rendering);
-    rest == *a && has_same_depths && has_same_focus && x == y
+    let has_same_settings = RenderKey::of_text().all(|key| key.in_use(&x) == key.in_use(&y));
+    rest == *a && has_same_depths && has_same_focus && has_same_settings
 }
 
 /// The lights of a scene that shed light, each with whether the one written for it is alike.

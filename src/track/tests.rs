@@ -177,6 +177,7 @@ fn text_of(language: Language) -> &'static str {
         Language::Ray => RAY,
         Language::Dat => DAT,
         Language::Xml => XML,
+        Language::Cse167 => Language::Cse167.template(),
     }
 }
 

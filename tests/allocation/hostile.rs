@@ -60,7 +60,7 @@ fn cases() -> Vec<Case> {
                 "mat ID 1 1 1 1 1 1 0 1 0 0 1\nobj quadric ID 1 mat ID 1 {} 100000000",
                 "1 ".repeat(10)
             ),
-            "declares `100000000` cuts, but 0 cuts follow",
+            "declares `100000000`, but 0 cuts follow",
             0,
         ),
         case(

@@ -50,7 +50,11 @@ fn scaled_scenes_give_the_same_picture() {
         width: 48,
         height: 36,
     };
-    for own in scenes() {
+    // The transforms of `.test` are no fields that could be scaled.
+    let scenes = scenes()
+        .into_iter()
+        .filter(|own| own.language != Language::Cse167);
+    for own in scenes {
         let (scene, images) = own.meaning();
         let plain = trace(&scene, images, size, 1);
         for exponent in [-40, -20, -7, -1, 1, 7, 20, 40] {

@@ -58,6 +58,10 @@ fn scenes(language: Language) -> Vec<&'static str> {
             include_str!("../../../scenes/still-life.dat"),
             include_str!("../../../scenes/pool.dat"),
         ],
+        Language::Cse167 => vec![
+            include_str!("../../../scenes/lanterns.test"),
+            include_str!("../../../tests/it/cse167/spheres.test"),
+        ],
         Language::Xml => vec![
             include_str!("../../../scenes/spheres.xml"),
             include_str!("../../../scenes/courtyard.xml"),
@@ -70,7 +74,7 @@ fn scenes(language: Language) -> Vec<&'static str> {
 fn comment(language: Language, side: &str) -> String {
     match language {
         Language::Ray => format!("// {side}\n"),
-        Language::Dat => format!("# {side}\n"),
+        Language::Dat | Language::Cse167 => format!("# {side}\n"),
         Language::Xml => format!("<!-- {side} -->\n"),
     }
 }
@@ -261,6 +265,11 @@ fn merges_of_ray_lose_nothing_or_ask() {
 #[test]
 fn merges_of_dat_lose_nothing_or_ask() {
     check_merges(Language::Dat);
+}
+
+#[test]
+fn merges_of_test_lose_nothing_or_ask() {
+    check_merges(Language::Cse167);
 }
 
 #[test]

@@ -82,7 +82,7 @@ impl Moves for Source {
                     return Ok(self.moved_by_numbers(node, &placed.transform, motion, decimals));
                 }
                 self.wrapped(
-                    [place.at, placed.end],
+                    [place.at, place.end],
                     &placed.transform,
                     placed.centre,
                     motion,
@@ -96,10 +96,7 @@ impl Moves for Source {
 impl Source {
     /// The commands of an object: its line, or those of its triangles.
     pub(super) fn commands(&self, object: usize) -> Vec<usize> {
-        let (Some(place), Some(placed)) = (
-            self.origins.objects().get(object),
-            self.origins.own.objects.get(object),
-        ) else {
+        let Some(place) = self.origins.objects().get(object) else {
             return Vec::new();
         };
         let is_own = |at: &usize| {
@@ -108,7 +105,7 @@ impl Source {
                     .kind(*at)
                     .is_some_and(|kind| [TRI, TRI_NORMAL].contains(kind))
         };
-        (place.at..=placed.end).filter(is_own).collect()
+        (place.at..=place.end).filter(is_own).collect()
     }
 
     /// Fails if two nodes are of several lines, or a state changes between them.
@@ -211,12 +208,12 @@ impl Source {
         };
         if let Some(push) = pushed {
             let indent = indent(push);
-            let lines = transforms.iter().map(|one| format!("{end}{indent}{one}"));
+            let lines = transforms.iter().flat_map(|one| [end, indent, one]);
             return Ok(vec![insert(line(push).end(), lines.collect())]);
         }
         let indent = indent(first);
         let opening = std::iter::once("pushTransform").chain(transforms.iter().map(String::as_str));
-        let opening = opening.map(|one| format!("{indent}{one}{end}")).collect();
+        let opening = opening.flat_map(|one| [indent, one, end]).collect();
         Ok(vec![
             insert(line(first).start(), opening),
             insert(line(last).end(), format!("{end}{indent}popTransform")),

@@ -10,7 +10,7 @@ use crate::rendering::words;
 use crate::spelling::{number, numbers, vector};
 use crate::surroundings::{SHADOWLESS, SIZE, SPOT, angle, report_plain};
 use geometry::{FrameNumbers, Instance, Shape, Solid};
-use scene::{Emitter, Falloff, Gloss, Highlight, Light, Material, Rgb, Scene, Shadows};
+use scene::{Emitter, Falloff, Gloss, Highlight, Light, Material, Rendering, Rgb, Scene, Shadows};
 
 const LOBE: Loss = Loss {
     keys: &["specular", "Ks", "ks", "ns", "glossiness", "roughness"],
@@ -36,6 +36,12 @@ const TEXTURED: Loss = Loss {
     instead: "written in its plain colour",
 };
 
+const BOX: Loss = Loss {
+    keys: &[],
+    lost: "a box",
+    instead: "written as triangles, which enclose no solid: the same except for rounding and glass",
+};
+
 const ROUND: Loss = Loss {
     keys: &[],
     lost: "a cylinder or a cone",
@@ -50,7 +56,11 @@ pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
     report_plain(scene, losses);
     let mut text = String::new();
     let camera = &scene.camera;
-    let settings = words(&scene.setting.rendering);
+    // The depth has a command of its own.
+    let settings = words(&Rendering {
+        depth: None,
+        ..scene.setting.rendering
+    });
     // Writing to a string cannot fail.
     if !settings.is_empty() {
         let _ = writeln!(text, "# render:{settings}");
@@ -190,7 +200,10 @@ impl Writer<'_> {
                 self.text.push('\n');
             }
             Solid::Ellipsoid(ellipsoid) => self.ellipsoid(&ellipsoid.0.numbers()),
-            Solid::Cuboid(cuboid) => self.cuboid(&cuboid.0.numbers()),
+            Solid::Cuboid(cuboid) => {
+                losses.add(Of::Object(index), &BOX);
+                self.cuboid(&cuboid.0.numbers());
+            }
             Solid::Cylinder(cylinder) => {
                 losses.add(Of::Object(index), &ROUND);
                 self.round(&cylinder.0.numbers(), 1.0);
@@ -206,6 +219,16 @@ impl Writer<'_> {
 
     /// The image of the unit sphere: of a rotation, a scaling and another rotation.
     fn ellipsoid(&mut self, frame: &FrameNumbers) {
+        self.text.push_str("pushTransform\n  translate");
+        numbers(&mut self.text, frame.origin.to_array());
+        let scale = aligned(frame).unwrap_or_else(|| self.turn(frame));
+        self.text.push_str("\n  scale");
+        numbers(&mut self.text, scale.to_array());
+        self.text.push_str("\n  sphere 0 0 0  1\npopTransform\n");
+    }
+
+    /// Writes the rotation to the principal axes of an ellipsoid; returns its semi-axes.
+    fn turn(&mut self, frame: &FrameNumbers) -> DVec3 {
         let [x, y, z] = frame.columns();
         let matrix = DMat3::from_cols(x, y, z);
         let square = matrix * matrix.transpose();
@@ -215,16 +238,12 @@ impl Writer<'_> {
         let [a, b, c] = axes;
         let c = if a.cross(b).dot(c) < 0.0 { -c } else { c };
         let (axis, angle) = glam::DQuat::from_mat3(&DMat3::from_cols(a, b, c)).to_axis_angle();
-        self.text.push_str("pushTransform\n  translate");
-        numbers(&mut self.text, frame.origin.to_array());
         if angle != 0.0 {
             self.text.push_str("\n  rotate");
             numbers(&mut self.text, axis.to_array());
             numbers(&mut self.text, [angle.to_degrees()]);
         }
-        self.text.push_str("\n  scale");
-        numbers(&mut self.text, values.map(f64::sqrt));
-        self.text.push_str("\n  sphere 0 0 0  1\npopTransform\n");
+        DVec3::from_array(values.map(f64::sqrt))
     }
 
     fn cuboid(&mut self, frame: &FrameNumbers) {
@@ -323,6 +342,16 @@ impl Writer<'_> {
         }
         self.vertices += vertices.len();
     }
+}
+
+/// The lengths along x, y and z of a frame of the world's axes in any order.
+fn aligned(frame: &FrameNumbers) -> Option<DVec3> {
+    let mut lengths = DVec3::ZERO;
+    for (direction, length) in frame.directions.iter().zip(frame.lengths.to_array()) {
+        let mut axes = DVec3::AXES.iter();
+        lengths[axes.position(|axis| *axis == direction.abs())?] = length;
+    }
+    (0.0 < lengths.min_element()).then_some(lengths)
 }
 
 /// The colours and the shininess that stand for a material.

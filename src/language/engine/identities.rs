@@ -27,7 +27,8 @@ pub(crate) fn kind(
     let word = first.of(text);
     let is_head = |record: &&Record| {
         let head = record.heads[0];
-        head == word || (schema.any_case && head.eq_ignore_ascii_case(word))
+        head.len() == word.len()
+            && (head == word || (schema.any_case && head.eq_ignore_ascii_case(word)))
     };
     let mut alike = schema.records.iter().copied().filter(is_head);
     let found = alike.next().ok_or(Unknown::First(first))?;

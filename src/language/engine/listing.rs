@@ -28,6 +28,13 @@ impl<L: Language> Source<L> {
         objects: &[usize],
         wanted: Visibility,
     ) -> Result<Vec<Edit>, &'static str> {
+        if !L::SCHEMA
+            .records
+            .iter()
+            .any(|record| record.makes == Makes::List)
+        {
+            return Err("the language has no word for hiding an object");
+        }
         let (text, origins) = (&*self.text, &self.origins);
         let objects: HashSet<_> = objects.iter().copied().collect();
         let is_drawn = |object: &usize| origins.drawn.binary_search(object).is_ok();

@@ -32,8 +32,10 @@ pub(crate) struct Places<Own> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     pub(crate) record: &'static Record,
-    /// Index of the record.
+    /// Index of the record, the first if it has several.
     pub(crate) at: usize,
+    /// Index of the last record.
+    pub(crate) end: usize,
     /// Its ID; 0 if it has none.
     pub(crate) id: i64,
     /// The nodes that it refers to, as far as it does.
@@ -76,6 +78,13 @@ impl<Own> Places<Own> {
         self.nodes[category as usize].push(place);
     }
 
+    /// Notes the last record of a node of a category.
+    pub(crate) fn end(&mut self, category: Category, index: usize, end: usize) {
+        if let Some(place) = self.nodes[category as usize].get_mut(index) {
+            place.end = end;
+        }
+    }
+
     /// Notes the node that one of a category refers to.
     pub(crate) fn refer(&mut self, category: Category, index: usize, to: Node) {
         if let Some(place) = self.nodes[category as usize].get_mut(index) {
@@ -114,13 +123,21 @@ impl<Own> Places<Own> {
         if self.view.contains(&Some(record)) {
             return Some(Node::View);
         }
+        let holds = |place: &Place| (place.at..=place.end).contains(&record);
         let own = Category::ALL.into_iter().find_map(|category| {
-            let found = self
-                .of(category)
-                .binary_search_by_key(&record, |place| place.at);
-            Some(Node::of(category, found.ok()?))
+            let places = self.of(category);
+            let after = places.partition_point(|place| place.at <= record);
+            let last = after.checked_sub(1)?;
+            holds(&places[last]).then(|| Node::of(category, last))
         });
-        own.or_else(|| self.uses.iter().find(|place| place.at == record)?.user())
+        let used = || self.uses.iter().find(|place| holds(place))?.user();
+        // Those that state lines belong to are in another order.
+        let stated = || {
+            let places = self.of(Category::Material);
+            let stated = places.iter().position(holds)?;
+            Some(Node::Material(stated))
+        };
+        own.or_else(used).or_else(stated)
     }
 }
 

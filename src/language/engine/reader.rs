@@ -404,6 +404,7 @@ impl<'a, L: Language> Reader<'a, L> {
         let mut place = Place {
             record,
             at,
+            end: at,
             id: 0,
             refers: [None; 2],
         };

@@ -100,12 +100,12 @@ fn wrong_conversions_are_refused() {
         (
             "ball.ray -o ball.txt",
             2,
-            "scenes end in .ray, .dat or .xml; --to names another language",
+            "scenes end in .ray, .dat, .xml or .test; --to names another language",
         ),
         (
             "ball.ray -o ball.dat --to pov",
             2,
-            "[possible values: ray, dat, xml]",
+            "[possible values: ray, dat, xml, test]",
         ),
         ("ball.ray", 2, "--output <FILE>"),
         ("none.ray -o a.dat", 66, "no such file"),

@@ -7,13 +7,10 @@ use std::collections::HashMap;
 
 use glam::DAffine3;
 
-use super::schema::{
-    CAMERA, INTEGRATOR, INTEGRATORS, MAXDEPTH, Method, READ_OVER, SCHEMA, SIZE, SPP,
-};
+use super::schema::{CAMERA, INTEGRATOR, INTEGRATORS, MAXDEPTH, Method, READ_OVER, SIZE, SPP};
 use super::{Cse167, view};
 use crate::Lowered;
 use crate::camera::{CameraSpans, check};
-use crate::engine::identities::kind;
 use crate::engine::lines::Lines;
 use crate::engine::places::Places;
 use crate::engine::reader::{Reader, Reading};
@@ -141,8 +138,8 @@ impl<'a> Lowering<'a> {
     }
 
     fn is_camera(&self, at: usize) -> bool {
-        let tokens = self.reader.lines.tokens(self.reader.text, at);
-        kind(&SCHEMA, self.reader.text, &tokens).is_ok_and(|record| *record == CAMERA)
+        let first = self.reader.lines.tokens(self.reader.text, at).next();
+        first.is_some_and(|first| first.of(self.reader.text).eq_ignore_ascii_case(CAMERA.name))
     }
 
     /// Warns of a camera that a later one replaces, and of its errors.
@@ -182,7 +179,7 @@ impl<'a> Lowering<'a> {
             .unwrap_or_default();
         match read.record.category() {
             Some(Category::Light) => self.light(&read),
-            Some(_) => self.object(at, &read),
+            Some(_) => self.object(&read),
             None if *read.record == CAMERA || *read.record == SIZE => self.view(&read),
             None if READ_OVER.contains(&read.record.name) => {
                 self.read_over.get_or_insert(head);

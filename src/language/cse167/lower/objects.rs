@@ -30,8 +30,6 @@ pub(in crate::cse167) struct Placed {
     pub(in crate::cse167) transform: DAffine3,
     /// Its centre in the world.
     pub(in crate::cse167) centre: DVec3,
-    /// The last of its commands.
-    pub(in crate::cse167) end: usize,
 }
 
 /// The piles of vertices, and the mesh that is open.
@@ -107,7 +105,7 @@ impl Lowering<'_> {
     }
 
     /// Reads a sphere or an area light, whose place is noted.
-    pub(super) fn object(&mut self, at: usize, read: &Reading<'_>) {
+    pub(super) fn object(&mut self, read: &Reading<'_>) {
         // What is open was noted before it.
         self.close_mesh_before_last();
         let material = if *read.record == QUAD_LIGHT {
@@ -141,7 +139,6 @@ impl Lowering<'_> {
         self.reader.places.own.objects.push(Placed {
             transform,
             centre: centre.unwrap_or_default(),
-            end: at,
         });
         if let Some(shape) = shape {
             self.reader.places.drawn.push(own);
@@ -321,6 +318,7 @@ impl Lowering<'_> {
             let place = Place {
                 record,
                 at,
+                end: at,
                 id: 0,
                 refers: [Some(Node::Material(material)), None],
             };
@@ -395,8 +393,8 @@ impl Lowering<'_> {
         self.reader.places.own.objects.push(Placed {
             transform: mesh.transform,
             centre: centre.unwrap_or_default(),
-            end: mesh.last,
         });
+        self.reader.places.end(Category::Object, own, mesh.last);
         if let Some(shape) = shape {
             self.reader.places.drawn.push(own);
             let material = mesh.material as u32;

@@ -164,6 +164,7 @@ impl Lowering<'_> {
                 Some(Place {
                     record,
                     at: (*at)?,
+                    end: (*at)?,
                     id: 0,
                     refers: [Some(Node::Material(index)), None],
                 })
@@ -175,6 +176,7 @@ impl Lowering<'_> {
             let first = places.next().unwrap_or(Place {
                 record: &AMBIENT,
                 at: NOWHERE,
+                end: NOWHERE,
                 id: 0,
                 refers: [None; 2],
             });

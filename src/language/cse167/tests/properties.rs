@@ -3,7 +3,7 @@
 use super::read;
 use crate::schema::Kind;
 use crate::tests::{Random, damage};
-use crate::{Node, Source};
+use crate::{FieldSpans, Node, Source};
 use text::{Edit, Span, apply};
 
 const SCENES: [&str; 3] = [
@@ -19,7 +19,7 @@ fn said(source: &Source) -> Vec<(Node, &'static str, Span, String)> {
         let placed = source
             .fields(node)
             .into_iter()
-            .filter(|placed| placed.is_explicit());
+            .filter(FieldSpans::is_explicit);
         placed.flat_map(move |placed| {
             let key = placed.field.key;
             let words = placed.spans.into_iter();

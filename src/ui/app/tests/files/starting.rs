@@ -65,7 +65,7 @@ scripts! {
             :new .DAT<Enter> | dat
             :new xml<Enter>  | xml
         ");
-        ray().play(":new obj<Enter> | says new takes .ray, .dat or .xml");
+        ray().play(":new obj<Enter> | says new takes .ray, .dat, .xml or .test");
     };
 
     a_mesh_is_opened_in_a_new_scene: mesh("a.stl").with("xml", Language::Xml.template())
