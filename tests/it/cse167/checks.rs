@@ -1,5 +1,7 @@
 //! Colours of `.test` scenes that are known on paper.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use super::pixels;
 
 /// One pixel that looks along −z at the origin: a unit sphere there is hit at z = 1, where its normal
@@ -98,7 +100,7 @@ const ROWS: &[(&str, [usize; 2], [f64; 3])] = &[
     // where they sum to 0, the face's normal: ¼ + ¼ − ½ = 0; N = +z
     ("HEAD\ndiffuse 1 1 1\ndirectional 0 3 4 1 1 1\nvertexnormal -1 -1 0 0 0 1\nvertexnormal 1 -1 0 0 0 1\nvertexnormal 0 1 0 0 0 -1\ntrinormal 0 1 2", [0, 0], [0.8, 0.8, 0.8]),
     // an interpolated normal that looks away is used as it is: sum (0, 3, 2): a front hit; n = (0, 1.5, −1.5), N·L = √½
-    ("HEAD\ndiffuse 1 1 1\ndirectional 0 1 0 1 1 1\nvertexnormal -1 -1 0 0 0 5\nvertexnormal 1 -1 0 0 0 5\nvertexnormal 0 1 0 0 3 -8\ntrinormal 0 1 2", [0, 0], [0.7071, 0.7071, 0.7071]),
+    ("HEAD\ndiffuse 1 1 1\ndirectional 0 1 0 1 1 1\nvertexnormal -1 -1 0 0 0 5\nvertexnormal 1 -1 0 0 0 5\nvertexnormal 0 1 0 0 3 -8\ntrinormal 0 1 2", [0, 0], [FRAC_1_SQRT_2, FRAC_1_SQRT_2, FRAC_1_SQRT_2]),
     // mirroring turns no triangle inside out: (0, 1.5, −2) becomes (0, 1.5, 2), a front hit
     ("HEAD\ndiffuse 1 1 1\ndirectional 0 0 1 1 1 1\nscale 1 1 -1\nvertexnormal -1 -1 0 0 0 -4\nvertexnormal 1 -1 0 0 0 -4\nvertexnormal 0 1 0 0 3 0\ntrinormal 0 1 2", [0, 0], [0.8, 0.8, 0.8]),
     // nor a sphere: N = +z
