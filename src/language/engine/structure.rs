@@ -161,7 +161,11 @@ where
             }
             if end.is_none_or(|end| end <= leaf.start()) {
                 end = Some(line_end(text, leaf.start()));
-                kind = word.bytes().next().filter(u8::is_ascii).unwrap_or(b' ');
+                let records = L::SCHEMA.records.iter();
+                let known = records
+                    .map(|record| record.heads[0])
+                    .position(|head| head == word);
+                kind = known.map_or(b' ', |known| b'!' + known as u8);
                 (index, is_id) = (0, false);
             }
             if word.starts_with(|first: char| first.is_ascii_alphabetic()) {

@@ -25,7 +25,7 @@ const LINES: usize = 500;
 /// The files with more, and how many they have.
 const LONG: &[(&str, usize)] = &[
     ("benches/interface.rs", 502),
-    ("src/document/tests/structure.rs", 521),
+    ("src/document/tests/structure.rs", 527),
     ("src/geometry/tests/quadrics.rs", 530),
     ("src/language/ray/tests/properties.rs", 507),
     ("src/language/tests/structure.rs", 563),
@@ -51,7 +51,7 @@ const ROOMS: &[(&str, usize)] = &[
     ("geometry", 5800),
     ("image_file", 1200),
     // Four languages, three of which share an engine, and scenes around meshes.
-    ("language", 19500),
+    ("language", 19400),
     // Three formats, two of them as text and as numbers.
     ("obj", 3400),
     // Each of its rooms lists what others may use, and films give and take blocks. Longer names wrap more
