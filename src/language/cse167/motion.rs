@@ -207,7 +207,7 @@ impl Source {
             text,
         };
         if let Some(push) = pushed {
-            let indent = indent(push);
+            let indent = indent(push + 1);
             let lines = transforms.iter().flat_map(|one| [end, indent, one]);
             return Ok(vec![insert(line(push).end(), lines.collect())]);
         }

@@ -5,7 +5,7 @@ use super::{Language, Source};
 use crate::node::Node;
 use crate::structure::{Block, follows, line_before, lines};
 use crate::words::skip_white_space;
-use text::{Span, line_start};
+use text::{Edit, Span, line_end, line_start};
 
 impl<L: Language> Source<L> {
     /// The words of the comment line before a place.
@@ -52,10 +52,53 @@ impl<L: Language> Source<L> {
         self.block(record).span()
     }
 
-    /// The comment on a node.
+    /// The comment on a node: the one behind its first record, otherwise that on the line before.
     pub(super) fn comment_on(&self, node: Node) -> Option<&str> {
+        node.category()?;
+        if let Some(behind) = self.name_behind(node) {
+            return Some(behind.of(&self.text));
+        }
         let (at, _) = self.origins.records::<L>(node).next()?;
         self.label(self.tree.span(at).start())
-            .filter(|_| node.category().is_some())
+    }
+
+    /// The words of the comment behind the first record of a node, if that has any.
+    fn name_behind(&self, node: Node) -> Option<Span> {
+        let (at, _) = self.origins.records::<L>(node).next()?;
+        let end = self.tree.span(at).end();
+        let behind = Span::new(end, line_end(&self.text, end));
+        let marked = behind
+            .of(&self.text)
+            .trim_start()
+            .strip_prefix(L::COMMENTS[0])?;
+        let name = marked.trim_start_matches(L::COMMENTS[0]).trim();
+        let start = behind.end() - marked.len() + marked.find(name)?;
+        (!name.is_empty()).then(|| Span::new(start, start + name.len()))
+    }
+
+    /// What a node without an ID is called: the comment behind it.
+    pub(super) fn called_behind(&self, node: Node) -> Option<&str> {
+        let name = self.name_behind(node);
+        let has_name = L::COMMENTS_BEHIND && L::is_movable(node) && node.category().is_some();
+        has_name.then(|| name.map_or("", |name| name.of(&self.text)))
+    }
+
+    /// Returns the edits that call a node by a comment behind it, which an empty name removes.
+    pub(super) fn named_behind(&self, node: Node, name: &str) -> Vec<Edit> {
+        let Some((at, _)) = self.origins.records::<L>(node).next() else {
+            return Vec::new();
+        };
+        let own = self.tree.span(at).end();
+        let (span, text) = match self.name_behind(node) {
+            Some(old) if name.is_empty() => (Span::new(own, old.end()), String::new()),
+            Some(old) => (old, name.to_owned()),
+            None if name.is_empty() => return Vec::new(),
+            None => {
+                let blank = &self.text[own..line_end(&self.text, own)];
+                let end = own + blank.trim_end().len();
+                (Span::at(end), format!("  {} {name}", L::COMMENTS[0]))
+            }
+        };
+        vec![Edit { span, text }]
     }
 }

@@ -185,13 +185,18 @@ where
     fn called(&self, node: Node) -> Option<&str> {
         let tokens = self.tree.tokens(&self.text, self.record(node).ok()?);
         let identities = identities(L::SCHEMA, &self.text, tokens);
-        let own = identities.iter().find(|identity| identity.is_definition)?;
-        Some(own.span.of(&self.text))
+        match identities.iter().find(|identity| identity.is_definition) {
+            Some(own) => Some(own.span.of(&self.text)),
+            None => self.called_behind(node),
+        }
     }
 
     fn renaming(&self, node: Node, name: &str) -> Result<Vec<Edit>, StructureError> {
         let nameless = || StructureError::Name(format!("{} has no ID", self.name(node)));
         self.called(node).ok_or_else(nameless)?;
+        if L::COMMENTS_BEHIND {
+            return Ok(self.named_behind(node, name));
+        }
         let (category, _) = node.category().ok_or_else(nameless)?;
         let old = self.origins.get(node).ok_or_else(nameless)?.id;
         let id = match whole(name)? {

@@ -1,5 +1,6 @@
 //! Tests of the meaning of `.test` texts.
 
+mod edits;
 mod errors;
 mod properties;
 

@@ -1,0 +1,169 @@
+//! What edits write.
+
+use glam::DVec3;
+
+use super::read;
+use crate::{Along, Motion, Neighbour, NewNode, Node};
+use text::{Edit, apply};
+
+/// A camera and a light, before what is edited.
+const HEAD: &str = "camera 0 0 9 0 0 0 0 1 0 45\nsize 8 6\npoint 0 0 5 1 1 1\n";
+
+/// Checks what edits make of a text behind [`HEAD`]; the result must be without errors.
+#[track_caller]
+fn check(own: &str, edits: impl FnOnce(&crate::Source) -> Vec<Edit>, expected: &str) {
+    let mut text = format!("{HEAD}{own}");
+    let (source, _) = read(&text);
+    let edits = edits(&source);
+    apply(&mut text, &edits);
+    assert_eq!(text, format!("{HEAD}{expected}"));
+    assert_eq!(read(&text).1.diagnostics.errors(), 0, "{text}");
+}
+
+const BALL: Node = Node::Object(0);
+
+#[test]
+fn names_are_comments_behind() {
+    for (own, name, expected) in [
+        ("sphere 0 0 0 1", "sun", "sphere 0 0 0 1  # sun"),
+        ("sphere 0 0 0 1 # moon\n", "sun", "sphere 0 0 0 1 # sun\n"),
+        ("sphere 0 0 0 1  # moon\r\n", "", "sphere 0 0 0 1\r\n"),
+        ("sphere 0 0 0 1 #\n", "sun", "sphere 0 0 0 1 #  # sun\n"),
+    ] {
+        check(
+            own,
+            |source| source.renaming(BALL, name).expect("it has"),
+            expected,
+        );
+    }
+}
+
+#[test]
+fn deleting_a_mesh_keeps_its_vertices() {
+    let own = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\ntri 0 1 2\nvertex 1 1 0\ntri 1 3 2\nsphere 0 0 0 1\n";
+    let without = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 1 1 0\nsphere 0 0 0 1\n";
+    check(
+        own,
+        |source| source.removal(&[BALL]).expect("it goes"),
+        without,
+    );
+    let (source, _) = read(&format!("{HEAD}{own}"));
+    assert!(source.removal(&[Node::Material(0)]).is_err());
+}
+
+#[test]
+fn neighbours_exchange_places_unless_the_state_changes_between_them() {
+    let swap = |own: &str| {
+        let (source, _) = read(&format!("{HEAD}{own}"));
+        source
+            .exchange(BALL, Neighbour::Next)
+            .map(|placed| placed.edits)
+    };
+    let own = "sphere 0 0 0 1 # a\nsphere 1 0 0 1 # b\n";
+    check(
+        own,
+        |_| swap(own).expect("they do"),
+        "sphere 1 0 0 1 # b\nsphere 0 0 0 1 # a\n",
+    );
+    assert!(swap("sphere 0 0 0 1\ndiffuse 1 0 0\nsphere 1 0 0 1\n").is_err());
+}
+
+#[test]
+fn what_is_added_stands_where_nothing_stretches_it() {
+    let wish = |after| NewNode {
+        centre: DVec3::new(1.0, 2.0, 3.0),
+        half: 0.5,
+        decimals: 2,
+        after,
+        marked: &[],
+        file: None,
+    };
+    for (own, after, expected) in [
+        (
+            "sphere 0 0 0 1\n",
+            BALL,
+            "sphere 0 0 0 1\nsphere 1 2 3  0.5\n",
+        ),
+        (
+            "translate 1 0 0\nscale 2 2 2\nsphere 0 0 0 1",
+            BALL,
+            "translate 1 0 0\nscale 2 2 2\nsphere 0 0 0 1\nsphere 0 1 1.5  0.25",
+        ),
+        (
+            "pushTransform\nscale 1 2 1\nsphere 0 0 0 1",
+            BALL,
+            "pushTransform\nscale 1 2 1\nsphere 0 0 0 1\npopTransform\nsphere 1 2 3  0.5",
+        ),
+    ] {
+        check(
+            own,
+            |source| {
+                source
+                    .addition("sphere", &wish(after))
+                    .expect("it can")
+                    .edits
+            },
+            expected,
+        );
+    }
+}
+
+#[test]
+fn motions_change_numbers_or_wrap_the_object() {
+    let mesh = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n  tri 0 1 2\n";
+    let turn = Motion::Rotate {
+        axis: DVec3::Z,
+        angle: 90.0,
+        about: DVec3::ZERO,
+    };
+    let wide = |along| Motion::Scale {
+        factor: 2.0,
+        along,
+        about: DVec3::ZERO,
+    };
+    let by = Motion::Move(DVec3::new(2.0, 0.0, 0.0));
+    for (own, motion, expected) in [
+        (
+            "sphere 0 0 0 1\n".to_owned(),
+            by,
+            "sphere 2 0 0 1\n".to_owned(),
+        ),
+        (
+            "scale 2 1 1\nsphere 0 0 0 1\n".to_owned(),
+            by,
+            "scale 2 1 1\nsphere 1 0 0 1\n".to_owned(),
+        ),
+        (
+            "sphere 3 0 0 1\n".to_owned(),
+            turn,
+            "sphere 0 3 0 1\n".to_owned(),
+        ),
+        (
+            "sphere 0 0 0 1\n".to_owned(),
+            wide(Along::All),
+            "sphere 0 0 0 2\n".to_owned(),
+        ),
+        (
+            "sphere 0 0 0 1\n".to_owned(),
+            wide(Along::World(1)),
+            "pushTransform\nscale 1 2 1\nsphere 0 0 0 1\npopTransform\n".to_owned(),
+        ),
+        (
+            mesh.to_owned(),
+            by,
+            mesh.replace(
+                "  tri 0 1 2",
+                "  pushTransform\n  translate 2 0 0\n  tri 0 1 2\n  popTransform",
+            ),
+        ),
+        (
+            "pushTransform\n  scale 1 2 1\n  sphere 0 0 0 1\npopTransform\n".to_owned(),
+            turn,
+            "pushTransform\n  rotate 0 0 1 90\n  scale 1 2 1\n  sphere 0 0 0 1\npopTransform\n"
+                .to_owned(),
+        ),
+    ] {
+        let moved = |source: &crate::Source| source.motion(&[BALL], &motion, 2).expect("it moves");
+        check(&own, moved, &expected);
+    }
+}
