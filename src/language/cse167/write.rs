@@ -85,11 +85,12 @@ pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
         material: None,
         vertices: 0,
         smooth_vertices: 0,
+        label: None,
     };
     for (index, object) in scene.objects.iter().enumerate() {
-        if let Some(label) = losses.label(Of::Object(index)) {
-            let _ = writeln!(writer.text, "# {}", label.trim());
-        }
+        writer.label = losses
+            .label(Of::Object(index))
+            .map(|label| label.trim().to_owned());
         if let Shape::Mesh(mesh) = &object.shape {
             writer.mesh(mesh, object.material, losses);
             continue;
@@ -152,14 +153,23 @@ struct Writer<'s> {
     material: Option<u32>,
     vertices: usize,
     smooth_vertices: usize,
+    /// What the next object is called, until it is written.
+    label: Option<String>,
 }
 
 impl Writer<'_> {
-    /// Writes what of a material differs from the one in force.
+    /// Writes what of a material differs from the one in force, and behind it what is called so.
     fn material(&mut self, index: u32, losses: &mut Losses<'_>) {
-        if self.material == Some(index) {
-            return;
+        if self.material != Some(index) {
+            self.state(index, losses);
         }
+        if let Some(label) = self.label.take() {
+            // Writing to a string cannot fail.
+            let _ = writeln!(self.text, "# {label}");
+        }
+    }
+
+    fn state(&mut self, index: u32, losses: &mut Losses<'_>) {
         let state = |index: Option<u32>| {
             let material = index.and_then(|index| self.scene.materials.get(index as usize));
             material.map(|material| state_of(material, self.ambient))
