@@ -31,16 +31,16 @@ pub(crate) fn kind(
             && (head == word || (schema.any_case && head.eq_ignore_ascii_case(word)))
     };
     let mut alike = schema.records.iter().copied().filter(is_head);
-    let found = alike.next().ok_or(Unknown::First(first))?;
-    let more: Vec<_> = alike.collect();
-    if more.is_empty() && found.heads.len() == 1 {
-        return Ok(found);
-    }
-    let mut alike: Vec<_> = more.into_iter().rev().chain([found]).collect();
+    let mut others = alike.clone();
+    let found = others.next().ok_or(Unknown::First(first))?;
     if 1 < found.heads.len() {
         let second = rest.next();
-        alike.retain(|record| second.is_some_and(|word| word.of(text) == record.heads[1]));
-        return alike.pop().ok_or(Unknown::Second(first, second));
+        let is_kind =
+            |record: &&Record| second.is_some_and(|second| second.of(text) == record.heads[1]);
+        return alike.find(is_kind).ok_or(Unknown::Second(first, second));
+    }
+    if others.next().is_none() {
+        return Ok(found);
     }
     let words: Vec<_> = rest.map(|token| token.of(text)).collect();
     let known = |record: &&Record| {
@@ -52,10 +52,8 @@ pub(crate) fn kind(
         record.slots.iter().filter(fits).count()
     };
     // Of equal ones, the first.
-    alike
-        .into_iter()
-        .max_by_key(known)
-        .ok_or(Unknown::First(first))
+    let alike: Vec<_> = alike.collect();
+    Ok(alike.into_iter().rev().max_by_key(known).unwrap_or(found))
 }
 
 /// The tokens of each slot of a record, until one is incomplete. `tokens` are all of the record's.

@@ -136,10 +136,10 @@ impl<'a, L: Language> Reader<'a, L> {
                 return None;
             }
         };
-        let last_head = tokens
-            .clone()
-            .nth(record.heads.len() - 1)
-            .unwrap_or_default();
+        let mut rest = tokens.clone();
+        let first = rest.next().unwrap_or_default();
+        let others = rest.by_ref().take(record.heads.len() - 1);
+        let last_head = others.last().unwrap_or(first);
         let before = match record.makes {
             Makes::View => {
                 let at_view = L::SCHEMA.view().position(|view| view == record);
@@ -151,13 +151,11 @@ impl<'a, L: Language> Reader<'a, L> {
         if let Some(before) = before.filter(|_| !record.is_replaced) {
             self.warn_of_repetition(before, last_head);
         }
-        let (first, head) = (tokens.clone().next().unwrap_or_default(), record.heads[0]);
+        let head = record.heads[0];
         let word = first.of(self.text);
         if word != head {
             self.report.warning(|| other_case(first, word, head));
         }
-        let mut rest = tokens.clone();
-        rest.by_ref().take(record.heads.len()).for_each(drop);
         let errors = self.report.errors();
         let mut read = Reading {
             record,
