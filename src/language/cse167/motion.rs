@@ -4,7 +4,9 @@
 use glam::{DAffine3, DVec3};
 
 use super::Source;
-use super::schema::{POP, PUSH, QUAD_LIGHT, SCHEMA, SPHERE, TRI, TRI_NORMAL};
+use super::schema::{
+    POP, PUSH, QUAD_LIGHT, SCHEMA, SPHERE, TRI, TRI_NORMAL, VERTEX, VERTEX_NORMAL,
+};
 use crate::engine::identities::kind;
 use crate::engine::motion::Moves;
 use crate::engine::places::Place;
@@ -176,6 +178,12 @@ impl Source {
         centre: DVec3,
         motion: &Motion,
     ) -> Result<Vec<Edit>, StructureError> {
+        let piles = [TRI, TRI_NORMAL, VERTEX, VERTEX_NORMAL];
+        let mut others = (first + 1..last).filter_map(|at| self.kind(at));
+        if others.any(|kind| !piles.contains(kind)) {
+            let reason = "other commands stand between its triangles: move it in its text";
+            return Err(StructureError::Inexpressible(reason.to_owned()));
+        }
         let text = &*self.text;
         let end = line_ending(text);
         let line = |at: usize| {

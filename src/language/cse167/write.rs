@@ -368,6 +368,13 @@ fn aligned(frame: &FrameNumbers) -> Option<DVec3> {
 fn state_of(material: &Material, ambient: Rgb) -> ([Rgb; 4], f64) {
     let gloss = gloss(material);
     let reflected = ambient * material.ambient.unwrap_or(material.diffuse);
+    // A mirror alone has a highlight too small to be seen.
+    let is_mirror = gloss.specular == Rgb::ZERO && material.mirror.tint != Rgb::ZERO;
+    let shininess = if is_mirror {
+        1e6
+    } else {
+        gloss.exponent.max(0.0)
+    };
     let specular = if gloss.specular == Rgb::ZERO {
         material.mirror.tint
     } else {
@@ -375,7 +382,7 @@ fn state_of(material: &Material, ambient: Rgb) -> ([Rgb; 4], f64) {
     };
     (
         [reflected, material.diffuse, specular, material.emission],
-        gloss.exponent.max(0.0),
+        shininess,
     )
 }
 

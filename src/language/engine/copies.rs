@@ -6,7 +6,7 @@ use super::Language;
 use super::identities::{self, Identity, identities, kind};
 use super::lines::Lines;
 use crate::StructureError;
-use crate::schema::{Category, Makes};
+use crate::schema::{Category, Makes, Record};
 use crate::written::Parse;
 use text::{Edit, apply, visible};
 
@@ -17,6 +17,8 @@ pub(super) struct Copies {
     pub(super) text: String,
     /// The identities in all records, with those IDs.
     identities: Vec<Identity>,
+    /// What each record makes, if it makes something.
+    made: Vec<Category>,
 }
 
 impl Copies {
@@ -39,10 +41,12 @@ impl Copies {
         if lines.records.is_empty() {
             return foreign(String::new());
         }
-        let mut records = Vec::new();
+        let (mut records, mut made) = (Vec::new(), Vec::new());
         for record in 0..lines.records.len() {
             let tokens = lines.tokens(text, record);
-            let is_thing = kind(L::SCHEMA, text, &tokens).is_ok_and(|record| {
+            let kind = kind(L::SCHEMA, text, &tokens);
+            made.extend(kind.ok().and_then(Record::category));
+            let is_thing = kind.is_ok_and(|record| {
                 record.category().is_some() || matches!(record.makes, Makes::Use(_) | Makes::State)
             });
             if !is_thing {
@@ -56,20 +60,21 @@ impl Copies {
         let mut text = text.to_owned();
         apply(&mut text, &edits);
         let identities = records.concat();
-        Ok(Self { text, identities })
+        Ok(Self {
+            text,
+            identities,
+            made,
+        })
     }
 
     fn defined(&self) -> impl Iterator<Item = &Identity> + Clone {
         self.identities.iter().filter(|own| own.is_definition)
     }
 
-    /// What they all define; `None` if that differs.
+    /// What they all make; `None` if that differs.
     pub(super) fn category(&self) -> Option<Category> {
-        let mut defined = self.defined();
-        let first = defined.next()?.category;
-        defined
-            .all(|other| other.category == first)
-            .then_some(first)
+        let (first, others) = self.made.split_first()?;
+        others.iter().all(|other| other == first).then_some(*first)
     }
 
     /// The IDs that they refer to, and do not define.

@@ -107,8 +107,8 @@ where
             let [user, used] = [user, used].map(|node| self.name(node));
             return Err(StructureError::Order { user, used });
         }
-        L::check_exchange(self, [used, user])?;
         let records = [self.record(used)?, self.record(user)?];
+        L::check_exchange(self, [used, user])?;
         Ok(exchange(
             &self.text,
             records.map(|record| self.block(record)),

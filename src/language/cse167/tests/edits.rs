@@ -109,6 +109,30 @@ fn what_is_added_stands_where_nothing_stretches_it() {
 }
 
 #[test]
+fn copies_stand_behind_what_is_selected() {
+    let own = "diffuse 1 0 0\nsphere 0 0 0 1\ndiffuse 0 0 1\nsphere 1 0 0 2\n";
+    let copied = |source: &crate::Source| {
+        let copy = source.copied(&[BALL]).expect("it can be");
+        source.insertion(&copy, BALL).expect("it fits").edits
+    };
+    let expected = own.replace("sphere 0 0 0 1\n", "sphere 0 0 0 1\nsphere 0 0 0 1\n");
+    check(own, copied, &expected);
+}
+
+#[test]
+fn a_mesh_with_other_commands_between_its_triangles_is_not_moved() {
+    let pile = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 1 1 0\n";
+    for between in ["point 0 0 9 1 1 1\n", "pushTransform\npopTransform\n"] {
+        let text = format!("{HEAD}{pile}tri 0 1 2\n{between}tri 1 3 2\n");
+        let (source, _) = read(&text);
+        assert!(
+            source.motion(&[BALL], &Motion::Move(DVec3::X), 2).is_err(),
+            "{text}"
+        );
+    }
+}
+
+#[test]
 fn motions_change_numbers_or_wrap_the_object() {
     let mesh = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n  tri 0 1 2\n";
     let turn = Motion::Rotate {
