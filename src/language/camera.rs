@@ -3,8 +3,10 @@
 use glam::DVec3;
 
 use super::schema::Range;
+use super::schema::position::At;
+use super::view::Numbers;
 use geometry::{Aabb, normalise};
-use scene::Camera;
+use scene::{Camera, Focus, Lens, Size};
 use text::{Diagnostic, Findings, Span};
 
 /// The places of a camera's parts in the text, or stand-ins for missing parts.
@@ -16,6 +18,47 @@ pub(super) struct CameraSpans {
     pub(super) whole: Span,
     /// How to state a camera in this language.
     pub(super) remedy: &'static str,
+}
+
+/// The positions of the numbers of a perspective camera without anything else.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pinhole {
+    pub(super) eye: At<3>,
+    pub(super) target: At<3>,
+    pub(super) up: At<3>,
+    /// The vertical angle of view in degrees.
+    pub(super) fov: At<1>,
+    pub(super) size: At<2>,
+}
+
+impl Pinhole {
+    /// The numbers of a camera, as many as there are defaults.
+    pub(super) fn numbers(&self, camera: &Camera, defaults: &[f64]) -> Numbers {
+        let mut numbers = defaults.to_vec();
+        self.eye.put(&mut numbers, camera.eye.into());
+        self.target.put(&mut numbers, camera.target.into());
+        self.up.put(&mut numbers, camera.up.into());
+        let (Lens::Perspective(fov) | Lens::Orthographic(fov)) = camera.lens;
+        self.fov.put(&mut numbers, [fov]);
+        let Size { width, height } = camera.size;
+        self.size.put(&mut numbers, [width.into(), height.into()]);
+        numbers
+    }
+
+    /// The camera described by these numbers.
+    pub(super) fn camera(&self, numbers: &[f64]) -> Camera {
+        let [width, height] = self.size.get(numbers).map(|side| side as u32);
+        Camera {
+            eye: self.eye.vector(numbers),
+            target: self.target.vector(numbers),
+            up: self.up.vector(numbers),
+            lens: Lens::Perspective(self.fov.number(numbers)),
+            pixel_aspect: 1.0,
+            depths: Camera::ALL_DEPTHS,
+            focus: Focus::PINHOLE,
+            size: Size { width, height },
+        }
+    }
 }
 
 /// Returns the centre of the box and an eye on the given side of it, from which its bounding sphere

@@ -73,11 +73,11 @@ impl Language for Cse167 {
     }
 
     fn view_numbers(_: &Source, camera: &Camera) -> Numbers {
-        view::numbers(camera)
+        view::VIEW.numbers(camera, &view::DEFAULT)
     }
 
     fn view_camera(_: &Source, numbers: &Numbers, _: &Camera) -> Camera {
-        view::camera(numbers)
+        view::VIEW.camera(numbers)
     }
 
     fn follows_lens(record: &Record) -> bool {

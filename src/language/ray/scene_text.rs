@@ -163,7 +163,7 @@ impl SceneText for Source {
     }
 
     fn view_camera(&self, numbers: &Numbers, _: &Camera) -> Camera {
-        view::camera(numbers)
+        view::PLACES.camera(numbers)
     }
 
     fn view_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit> {

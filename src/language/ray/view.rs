@@ -4,10 +4,10 @@ use std::fmt::Write;
 
 use super::origins::Origins;
 use super::schema::VIEW;
+use crate::camera::Pinhole;
 use crate::schema::Field;
-use crate::schema::position::At;
 use crate::view::{Numbers, beginning, line_ending, literal, take};
-use scene::{Camera, Focus, Lens, Size};
+use scene::Camera;
 use text::{Edit, Span, spell_like};
 
 /// The fields of the view.
@@ -20,38 +20,18 @@ pub(super) const DEFAULT: [f64; VIEW.numbers()] = [
     0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 45.0, 800.0, 600.0,
 ];
 
-pub(super) const EYE: At<3> = VIEW.at("eye");
-pub(super) const TARGET: At<3> = VIEW.at("target");
-const UP: At<3> = VIEW.at("up");
-pub(super) const FOV: At<1> = VIEW.at("fov");
-const SIZE: At<2> = VIEW.at("size");
+/// The positions of the numbers.
+pub(super) const PLACES: Pinhole = Pinhole {
+    eye: VIEW.at("eye"),
+    target: VIEW.at("target"),
+    up: VIEW.at("up"),
+    fov: VIEW.at("fov"),
+    size: VIEW.at("size"),
+};
 
 /// The numbers of a camera, in the order of [`VIEW`].
 pub(super) fn numbers(camera: &Camera) -> Numbers {
-    let mut numbers = DEFAULT.to_vec();
-    EYE.put(&mut numbers, camera.eye.into());
-    TARGET.put(&mut numbers, camera.target.into());
-    UP.put(&mut numbers, camera.up.into());
-    let (Lens::Perspective(fov) | Lens::Orthographic(fov)) = camera.lens;
-    FOV.put(&mut numbers, [fov]);
-    let Size { width, height } = camera.size;
-    SIZE.put(&mut numbers, [width.into(), height.into()]);
-    numbers
-}
-
-/// The camera described by these numbers.
-pub(super) fn camera(numbers: &[f64]) -> Camera {
-    let [width, height] = SIZE.get(numbers).map(|side| side as u32);
-    Camera {
-        eye: EYE.vector(numbers),
-        target: TARGET.vector(numbers),
-        up: UP.vector(numbers),
-        lens: Lens::Perspective(FOV.number(numbers)),
-        pixel_aspect: 1.0,
-        depths: Camera::ALL_DEPTHS,
-        focus: Focus::PINHOLE,
-        size: Size { width, height },
-    }
+    PLACES.numbers(camera, &DEFAULT)
 }
 
 /// Returns the edits that change the text's camera from `before` to `camera`.

@@ -237,16 +237,16 @@ pub(super) fn camera(
         rest = behind;
     }
     if !(has(EYE) && has(TARGET)) {
-        let fov = view::FOV.number(&numbers);
+        let fov = view::PLACES.fov.number(&numbers);
         let (eye, centre) = default_eye_and_target(bounds(), fov, DEFAULT_SIDE);
         if !has(EYE) {
-            view::EYE.put(&mut numbers, eye.into());
+            view::PLACES.eye.put(&mut numbers, eye.into());
         }
         if !has(TARGET) {
-            view::TARGET.put(&mut numbers, centre.into());
+            view::PLACES.target.put(&mut numbers, centre.into());
         }
     }
-    let camera = view::camera(&numbers);
+    let camera = view::PLACES.camera(&numbers);
     let part = |part| comment.map_or(otherwise, |comment: &ViewComment| comment.span(part));
     let [eye, target] = match (has(EYE), has(TARGET)) {
         (true, true) => [part(EYE), part(TARGET)],

@@ -211,9 +211,9 @@ impl<'a> Lowering<'a> {
         } else {
             self.view[..CAMERA.numbers()].copy_from_slice(numbers);
             self.camera = Some(CameraSpans {
-                eye: view::FROM.span(spans),
-                target: view::AT.span(spans),
-                up: view::UP.span(spans),
+                eye: view::VIEW.eye.span(spans),
+                target: view::VIEW.target.span(spans),
+                up: view::VIEW.up.span(spans),
                 whole: spans[0].to(spans[spans.len() - 1]),
                 remedy: "",
             });
@@ -229,7 +229,7 @@ impl<'a> Lowering<'a> {
                     .with_hint("the default camera is at the origin and looks along -z")
             });
         }
-        let camera = view::camera(&self.view);
+        let camera = view::VIEW.camera(&self.view);
         check(
             &camera,
             &self.camera.unwrap_or_default(),
