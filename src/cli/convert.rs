@@ -28,10 +28,10 @@ Exit codes: 0 written, 1 write or system error, 2 wrong arguments, 65 invalid sc
 
 #[derive(Args, Debug)]
 pub(super) struct ConvertArguments {
-    /// Scene file: .ray, .dat or .xml; or a mesh: .obj, .ply or .stl
+    /// Scene file: .ray, .dat, .xml or .test; or a mesh: .obj, .ply or .stl
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// New scene file, in the language of its extension: .ray, .dat or .xml; - for standard output
+    /// New scene file, in the language of its extension: .ray, .dat, .xml or .test; - for standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Language of the new scene, regardless of the file's extension; required for -o -

@@ -23,7 +23,7 @@ and the words dark and bright apply after it.";
 
 #[derive(Args, Debug)]
 pub(super) struct ExplainArguments {
-    /// Scene file: .ray, .dat or .xml; or a mesh: .obj, .ply or .stl
+    /// Scene file: .ray, .dat, .xml or .test; or a mesh: .obj, .ply or .stl
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
     /// Column of the pixel, from 0 at the left

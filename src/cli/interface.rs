@@ -29,7 +29,7 @@ pub enum Purpose {
 #[derive(Args, Debug)]
 #[command(group = ArgGroup::new("headless").args(["keys", "frames"]).multiple(true))]
 pub(super) struct InterfaceArguments {
-    /// Scene file to open: .ray, .dat or .xml; a new scene if it does not exist. Or a mesh (.obj, .ply or
+    /// Scene file to open: .ray, .dat, .xml or .test; a new scene if it does not exist. Or a mesh (.obj, .ply or
     /// .stl): a new scene around it
     #[arg(value_name = "SCENE")]
     pub(super) scene: Option<PathBuf>,

@@ -40,7 +40,7 @@ The same scene and options give the same bytes on every machine and with any num
 
 #[derive(Args, Debug)]
 pub(super) struct RenderArguments {
-    /// Scene file: .ray, .dat or .xml; or a mesh: .obj, .ply or .stl; or a folder of scenes, the frames of a
+    /// Scene file: .ray, .dat, .xml or .test; or a mesh: .obj, .ply or .stl; or a folder of scenes, the frames of a
     /// sequence
     #[arg(value_name = "SCENE")]
     scene: PathBuf,

@@ -36,7 +36,7 @@ pub fn convert(source: &Source, scene: &Scene, to: Language) -> Result<Converted
     let own = scene;
     let mut scene = numbered(without_gamma(own));
     let asked = scene.setting.rendering;
-    if asked.whitted_depth.is_some() {
+    if asked.default_depths.is_some() {
         // Other languages have other defaults.
         scene.to_mut().setting.rendering.depth = Some(asked.depth());
     }

@@ -80,9 +80,9 @@ macro_rules! rendering {
         #[derive(Clone, Copy, Debug, Default, PartialEq)]
         pub struct Rendering {
             $($(#[$doc])* pub $key: Option<$type>,)+
-            /// The depth of Whitted ray tracing where none is asked for, in a language with a default
-            /// of its own.
-            pub whitted_depth: Option<u32>,
+            /// The depths of Whitted ray tracing and of tracing paths where none is asked for, in a
+            /// language with defaults of its own.
+            pub default_depths: Option<[u32; 2]>,
         }
 
         impl Rendering {
@@ -91,7 +91,7 @@ macro_rules! rendering {
             pub fn or(self, others: Self) -> Self {
                 Self {
                     $($key: self.$key.or(others.$key),)+
-                    whitted_depth: self.whitted_depth.or(others.whitted_depth),
+                    default_depths: self.default_depths.or(others.default_depths),
                 }
             }
 

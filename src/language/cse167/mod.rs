@@ -18,7 +18,7 @@ use crate::engine::{self, Language};
 use crate::memory_estimate::{Counts, each};
 use crate::schema::{Category, Record, Schema};
 use crate::structure::{Addition, NewNode, Placement};
-use crate::view::Numbers;
+use crate::view::{Numbers, line_ending};
 use crate::written::Parse;
 use crate::{Lowered, Node, StructureError};
 use lower::Own;
@@ -103,6 +103,19 @@ impl Language for Cse167 {
 
     fn records_of(source: &Source, object: usize) -> Vec<usize> {
         source.commands(object)
+    }
+
+    fn as_copy(text: String) -> String {
+        let is_triangle = |line: &str| {
+            let word = line.split_whitespace().next().unwrap_or_default();
+            word.to_ascii_lowercase().starts_with("tri")
+        };
+        if !text.lines().next().is_some_and(is_triangle) {
+            return text;
+        }
+        // Otherwise they would join the mesh before them.
+        let end = line_ending(&text);
+        format!("pushTransform{end}{text}{end}popTransform")
     }
 
     fn check_exchange(source: &Source, nodes: [Node; 2]) -> Result<(), StructureError> {

@@ -4,9 +4,7 @@
 use glam::{DAffine3, DVec3};
 
 use super::Source;
-use super::schema::{
-    POP, PUSH, QUAD_LIGHT, SCHEMA, SPHERE, TRI, TRI_NORMAL, VERTEX, VERTEX_NORMAL,
-};
+use super::schema::{POP, PUSH, ROTATE, SCALE, SCHEMA, SPHERE, TRANSLATE, TRI, TRI_NORMAL};
 use crate::engine::identities::kind;
 use crate::engine::motion::Moves;
 use crate::engine::places::Place;
@@ -96,18 +94,27 @@ impl Moves for Source {
 }
 
 impl Source {
-    /// The commands of an object: its line, or those of its triangles.
+    /// The commands of an object: its line, or those of its triangles, and the transforms around them in a
+    /// push and pop that hold nothing else.
     pub(super) fn commands(&self, object: usize) -> Vec<usize> {
         let Some(place) = self.origins.objects().get(object) else {
             return Vec::new();
         };
-        let is_own = |at: &usize| {
-            *at == place.at
-                || self
-                    .kind(*at)
-                    .is_some_and(|kind| [TRI, TRI_NORMAL].contains(kind))
+        let is =
+            |at: usize, kinds: &[Record]| self.kind(at).is_some_and(|kind| kinds.contains(kind));
+        let own = (place.at..=place.end).filter(|&at| at == place.at || is(at, &[TRI, TRI_NORMAL]));
+        let own: Vec<_> = own.collect();
+        let is_transform = |at: &usize| is(*at, &[TRANSLATE, SCALE, ROTATE]);
+        let first = (0..place.at).rev().find(|at| !is_transform(at));
+        let (Some(push), pop) = (first, place.end + 1) else {
+            return own;
         };
-        (place.at..=place.end).filter(is_own).collect()
+        let is_alone = own.len() == place.end + 1 - place.at;
+        if is_alone && is(push, &[PUSH]) && is(pop, &[POP]) {
+            (push..=pop).collect()
+        } else {
+            own
+        }
     }
 
     /// Fails if two nodes are of several lines, or a state changes between them.
@@ -141,6 +148,10 @@ impl Source {
         decimals: usize,
     ) -> Vec<Edit> {
         let back = transform.inverse();
+        // Steps are rounded in the world: a large scale needs more decimals.
+        let size = transform.matrix3.determinant().abs().max(f64::MIN_POSITIVE);
+        let finer = (libm::log10(size) / 3.0).ceil().clamp(0.0, PRECISE as f64);
+        let decimals = decimals + finer as usize;
         let mut edits = Vec::new();
         for placed in self.fields(node) {
             let new = match (placed.field.part, self.vector(&placed), motion) {
@@ -178,12 +189,6 @@ impl Source {
         centre: DVec3,
         motion: &Motion,
     ) -> Result<Vec<Edit>, StructureError> {
-        let piles = [TRI, TRI_NORMAL, VERTEX, VERTEX_NORMAL];
-        let mut others = (first + 1..last).filter_map(|at| self.kind(at));
-        if others.any(|kind| !piles.contains(kind)) {
-            let reason = "other commands stand between its triangles: move it in its text";
-            return Err(StructureError::Inexpressible(reason.to_owned()));
-        }
         let text = &*self.text;
         let end = line_ending(text);
         let line = |at: usize| {
@@ -239,8 +244,8 @@ impl Source {
         let mut others = (push + 1..first)
             .chain(last + 1..pop)
             .filter_map(|at| self.kind(at));
-        let primitives = [TRI, TRI_NORMAL, SPHERE, QUAD_LIGHT];
-        (is_pair && !others.any(|kind| primitives.contains(kind))).then_some(push)
+        let triangles = [TRI, TRI_NORMAL];
+        (is_pair && !others.any(|kind| triangles.contains(kind))).then_some(push)
     }
 }
 

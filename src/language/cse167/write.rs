@@ -95,6 +95,11 @@ pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
             writer.mesh(mesh, object.material, losses);
             continue;
         }
+        if let Shape::Plane(plane) = &object.shape {
+            writer.material(object.material, losses);
+            writer.square(&plane.0.numbers());
+            continue;
+        }
         solids(index, object, losses, |solid, material, losses| {
             writer.material(material, losses);
             writer.solid(index, solid, losses);
@@ -254,6 +259,20 @@ impl Writer<'_> {
             numbers(&mut self.text, [angle.to_degrees()]);
         }
         DVec3::from_array(values.map(f64::sqrt))
+    }
+
+    /// The square from −1 to 1 along the first two axes, whose front is where the third points.
+    fn square(&mut self, frame: &FrameNumbers) {
+        let [x, y, z] = frame.columns();
+        let y = if x.cross(y).dot(z) < 0.0 { -y } else { y };
+        let centre = frame.origin;
+        let corners = [
+            centre - x - y,
+            centre + x - y,
+            centre + x + y,
+            centre - x + y,
+        ];
+        self.triangles(&corners, [[0, 1, 2], [0, 2, 3]].into_iter());
     }
 
     fn cuboid(&mut self, frame: &FrameNumbers) {

@@ -1,4 +1,4 @@
-//! The comments that belong to nodes: those on the lines before them.
+//! The comments that belong to nodes: those behind them and on the lines before.
 
 use super::lines::is_comment;
 use super::{Language, Source};

@@ -73,6 +73,10 @@ impl Copies {
 
     /// What they all make; `None` if that differs.
     pub(super) fn category(&self) -> Option<Category> {
+        if self.made.is_empty() && self.identities.is_empty() {
+            // Commands that make an object together.
+            return Some(Category::Object);
+        }
         let (first, others) = self.made.split_first()?;
         others.iter().all(|other| other == first).then_some(*first)
     }

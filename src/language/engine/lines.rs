@@ -1,5 +1,4 @@
-//! The tree of a text with one record a line: tokens separated by white space, comments on lines of
-//! their own.
+//! The tree of a text with one record a line: tokens separated by white space, and comments.
 
 use std::marker::PhantomData;
 use std::ops::Range;

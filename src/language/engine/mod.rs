@@ -88,6 +88,11 @@ pub(crate) trait Language: Clone + Copy + Debug + Default + Send + Sync + 'stati
         place.map(|place| place.at).into_iter().collect()
     }
 
+    /// A copied text as it is to be inserted.
+    fn as_copy(text: String) -> String {
+        text
+    }
+
     /// Fails if two nodes cannot exchange places, the first of which precedes the second.
     fn check_exchange(source: &Source<Self>, nodes: [Node; 2]) -> Result<(), StructureError> {
         let _ = (source, nodes);

@@ -468,6 +468,8 @@ impl<'a, L: Language> Reader<'a, L> {
 /// The name of a node, by its ID or, without one, its index: an object's tells its kind.
 pub(super) fn name(record: &Record, category: Category, (id, index): (i64, usize)) -> Name {
     let kind = match category {
+        // Many commands make it.
+        Category::Object if record.makes == Makes::State => "mesh",
         Category::Object => record.name,
         _ => "",
     };

@@ -293,7 +293,7 @@ where
             let places = self.origins.of(category).iter();
             places.map(move |place| (category, place.id))
         });
-        let copies = Copies::of::<L>(&adapted(text, &self.text), taken.collect())?;
+        let copies = Copies::of::<L>(&L::as_copy(adapted(text, &self.text)), taken.collect())?;
         let own = match self.anchor(&copies, after) {
             Some(record) => lines_after(&self.text, self.block_span(record), &copies.text),
             None => Edit {

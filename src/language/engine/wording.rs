@@ -1,6 +1,7 @@
 //! What is wrong with records, in words.
 
 use super::Language;
+use crate::record::what;
 use crate::report::{Name, did_you_mean, quoted};
 use crate::schema::{Field, Record, Repeat, Slot};
 use text::{Diagnostic, Span, counted, nearest_word};
@@ -129,7 +130,7 @@ pub(super) fn no_choice(
     token: Span,
     word: &str,
 ) -> Diagnostic {
-    let message = format!("{name} {}: unknown word {}", field.key, quoted(word));
+    let message = format!("{}: unknown word {}", what(name, field, ""), quoted(word));
     let diagnostic = Diagnostic::error(token, message, field.expected());
     did_you_mean(diagnostic, nearest_word(word, words.iter().copied()), None)
 }

@@ -17,7 +17,9 @@ impl Judge<'_> {
         let shines = |light: &&Light| light.colour != Rgb::ZERO;
         let is_lit = match integrator {
             Integrator::Whitted => {
-                scene.ambient != Rgb::ZERO || scene.lights.iter().any(|light| shines(&light))
+                let reflects = |material: &Material| material.ambience(Rgb::ONE) != Rgb::ZERO;
+                let is_ambient = scene.ambient != Rgb::ZERO && self.used().any(reflects);
+                is_ambient || scene.lights.iter().any(|light| shines(&light))
             }
             Integrator::Path | Integrator::Photon => scene
                 .lights

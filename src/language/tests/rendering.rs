@@ -50,7 +50,7 @@ fn read(language: Language, scene: &str, lines: &str) -> (Rendering, Vec<String>
     let scene = lowered.scene.unwrap_or_else(|| panic!("{found:?}"));
     // The default of a language is not what its text states.
     let stated = Rendering {
-        whitted_depth: None,
+        default_depths: None,
         ..scene.setting.rendering
     };
     (stated, found)

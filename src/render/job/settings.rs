@@ -38,7 +38,7 @@ macro_rules! settings {
             pub(crate) fn asked(&self) -> Rendering {
                 Rendering {
                     $($key: Some(self.$key),)+
-                    whitted_depth: None,
+                    default_depths: None,
                 }
             }
         }

@@ -19,9 +19,10 @@ macro_rules! render_settings {
                 )
             };
             /// Maximum number of bounces, 0 to 4096; primary rays are bounce 0.
-            depth: u32 = |asked| match asked.integrator() {
-                Integrator::Whitted => asked.whitted_depth.unwrap_or(DEFAULT_DEPTH),
-                other => other.default_depth(),
+            depth: u32 = |asked| match (asked.integrator(), asked.default_depths) {
+                (Integrator::Whitted, Some([whitted, _])) => whitted,
+                (Integrator::Path | Integrator::Photon, Some([_, paths])) => paths,
+                (integrator, None) => integrator.default_depth(),
             }, RenderSetting {
                 option: Some(CommandOption::new("N", "Maximum number of bounces, 0 to 4096")),
                 config: Some("Maximum number of bounces; otherwise 8, or 64 with path tracing"),

@@ -7,7 +7,9 @@ use std::collections::HashMap;
 
 use glam::DAffine3;
 
-use super::schema::{CAMERA, INTEGRATOR, INTEGRATORS, MAXDEPTH, Method, READ_OVER, SIZE, SPP};
+use super::schema::{
+    CAMERA, INTEGRATOR, INTEGRATORS, MAXDEPTH, Method, PILES, READ_OVER, SIZE, SPP,
+};
 use super::{Cse167, view};
 use crate::Lowered;
 use crate::camera::{CameraSpans, check};
@@ -21,8 +23,8 @@ use scene::{Integrator, Light, MAX_DEPTH, Object, Rendering, Rgb, Scene, Setting
 use state::{Materials, State};
 use text::{Diagnostic, Findings, Span, is_integer};
 
-/// The depth of Whitted ray tracing where the text states none.
-const DEPTH: u32 = 5;
+/// The depths of Whitted ray tracing and of paths where the text states none.
+const DEPTHS: [u32; 2] = [5, ENDLESS];
 
 /// The depth that −1 stands for.
 const ENDLESS: u32 = 64;
@@ -110,10 +112,14 @@ struct Lowering<'a> {
     meshes: Meshes,
     lights: Vec<Light>,
     objects: Vec<Object>,
+    /// The objects that are area lights, with their radiance.
+    area_lights: Vec<(usize, Rgb)>,
     /// The numbers of the view, and the places of the camera's.
     view: [f64; view::DEFAULT.len()],
     camera: Option<CameraSpans>,
     rendering: Rendering,
+    /// The depth that the integrator cuts paths at.
+    cut: Option<u32>,
     /// The first command that is read over.
     read_over: Option<Span>,
 }
@@ -127,25 +133,33 @@ impl<'a> Lowering<'a> {
             meshes: Meshes::default(),
             lights: Vec::new(),
             objects: Vec::new(),
+            area_lights: Vec::new(),
             view: view::DEFAULT,
             camera: None,
             rendering: Rendering {
-                whitted_depth: Some(DEPTH),
+                default_depths: Some(DEPTHS),
                 ..Rendering::default()
             },
+            cut: None,
             read_over: None,
         }
     }
 
+    /// The first word of a command.
+    fn head(&self, at: usize) -> Span {
+        let mut tokens = self.reader.lines.tokens(self.reader.text, at);
+        tokens.next().unwrap_or_default()
+    }
+
     fn is_camera(&self, at: usize) -> bool {
-        let first = self.reader.lines.tokens(self.reader.text, at).next();
-        first.is_some_and(|first| first.of(self.reader.text).eq_ignore_ascii_case(CAMERA.name))
+        let word = self.head(at).of(self.reader.text);
+        word.eq_ignore_ascii_case(CAMERA.name)
     }
 
     /// Warns of a camera that a later one replaces, and of its errors.
     fn superseded(&mut self, at: usize) {
         let before = std::mem::take(&mut self.reader.report);
-        let own = self.reader.read(at);
+        self.reader.read(at);
         let found = std::mem::replace(&mut self.reader.report, before);
         for diagnostic in found.iter() {
             self.reader.report.warning(|| Diagnostic {
@@ -153,14 +167,8 @@ impl<'a> Lowering<'a> {
                 ..diagnostic.clone()
             });
         }
-        let _ = own;
         self.reader.places.view[0] = None;
-        let head = self
-            .reader
-            .lines
-            .tokens(self.reader.text, at)
-            .next()
-            .unwrap_or_default();
+        let head = self.head(at);
         self.reader.report.warning(|| {
             let message = "camera: given again below";
             Diagnostic::warning(head, message, "one camera").with_hint("the last one counts")
@@ -171,12 +179,10 @@ impl<'a> Lowering<'a> {
         let Some(read) = self.reader.read(at) else {
             return;
         };
-        let head = self
-            .reader
-            .lines
-            .tokens(self.reader.text, at)
-            .next()
-            .unwrap_or_default();
+        let head = self.head(at);
+        if !PILES.contains(read.record) && read.record.category() != Some(Category::Object) {
+            self.close_mesh();
+        }
         match read.record.category() {
             Some(Category::Light) => self.light(&read),
             Some(_) => self.object(&read),
@@ -265,7 +271,7 @@ impl<'a> Lowering<'a> {
                 Method::Path => (Integrator::Path, None),
             };
             self.rendering.integrator = Some(integrator);
-            self.state.cut = depth;
+            self.cut = depth;
         } else if *record == SPP {
             match range(1.0, scene::MAX_SPP) {
                 Some(bad) => self.reader.report.error(|| bad),
@@ -294,7 +300,11 @@ impl<'a> Lowering<'a> {
         let below = self.state.pushed.first().map(|(_, below)| *below);
         self.reader.places.own.end = below.unwrap_or(self.state.transform);
         self.reader.places.own.open = self.state.pushed.len();
-        self.rendering.depth = self.state.cut.or(self.rendering.depth);
+        if let Some(cut) = self.cut {
+            // Only paths are cut, whatever `maxdepth` says.
+            let whitted = self.rendering.depth.take().unwrap_or(DEPTHS[0]);
+            self.rendering.default_depths = Some([whitted, cut]);
+        }
         if let Some(&(open, _)) = self.state.pushed.first() {
             self.reader.report.warning(|| {
                 Diagnostic::warning(
@@ -319,6 +329,7 @@ impl<'a> Lowering<'a> {
             });
         }
         self.name_materials();
+        self.light_up();
     }
 }
 

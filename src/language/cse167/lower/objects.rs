@@ -1,5 +1,6 @@
 //! Lights, spheres, meshes and the piles of vertices.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -8,8 +9,7 @@ use glam::{DAffine3, DVec3};
 
 use super::Lowering;
 use crate::cse167::schema::{
-    DIRECTIONAL, MAXVERTNORMS, MAXVERTS, POINT, QUAD_LIGHT, SPHERE, TRI, TRI_NORMAL, VERTEX,
-    VERTEX_NORMAL,
+    DIRECTIONAL, MAXVERTNORMS, MAXVERTS, QUAD_LIGHT, TRI, TRI_NORMAL, VERTEX, VERTEX_NORMAL,
 };
 use crate::engine::places::Place;
 use crate::engine::reader::Reading;
@@ -54,12 +54,10 @@ struct Pile {
 /// A mesh that more triangles may join.
 #[derive(Debug)]
 struct OpenMesh {
-    first: usize,
     last: usize,
     head: Span,
     material: usize,
     transform: DAffine3,
-    record: &'static Record,
     parts: MeshParts,
     /// The position in the mesh of each vertex used, by its pile and number.
     used: HashMap<(bool, u32), u32>,
@@ -86,7 +84,6 @@ impl Lowering<'_> {
             };
             Emitter::Distant(toward)
         } else {
-            debug_assert!(*read.record == POINT);
             Emitter::Point {
                 position: transform.transform_point3(vector),
                 radius: 0.0,
@@ -108,34 +105,30 @@ impl Lowering<'_> {
     pub(super) fn object(&mut self, read: &Reading<'_>) {
         // What is open was noted before it.
         self.close_mesh_before_last();
-        let material = if *read.record == QUAD_LIGHT {
-            self.materials.all.len()
-        } else {
-            self.material()
-        };
         let own = self.reader.places.objects().len() - 1;
-        let transform = self.state.transform;
-        let shape = read.numbers().and_then(|numbers| {
-            if *read.record == QUAD_LIGHT {
-                self.parallelogram(read, numbers)
-            } else {
-                self.sphere(read, numbers)
+        let (transform, numbers) = (self.state.transform, read.numbers());
+        let (shape, material) = if *read.record == QUAD_LIGHT {
+            let shape = numbers.and_then(|numbers| self.parallelogram(read, numbers));
+            let colour = numbers.map_or(Rgb::ZERO, |numbers| Rgb::from_slice(&numbers[9..]));
+            if shape.is_some() {
+                self.area_lights.push((self.objects.len(), colour));
             }
-        });
-        if *read.record == QUAD_LIGHT {
-            let colour = read
-                .numbers()
-                .map_or(Rgb::ZERO, |numbers| Rgb::from_slice(&numbers[9..]));
-            self.materials.all.push(Material {
-                lit: Faces::Front,
-                ..Material::unlit(colour)
-            });
-            self.materials.stated.push(None);
-        }
+            (shape, 0)
+        } else {
+            let material = self.material();
+            let places = &mut self.reader.places;
+            places.refer(Category::Object, own, Node::Material(material));
+            (
+                numbers.and_then(|numbers| self.sphere(read, numbers)),
+                material,
+            )
+        };
+        self.draw(own, transform, (shape, material));
+    }
+
+    /// Notes where an object is, and draws it if it has a shape.
+    fn draw(&mut self, own: usize, transform: DAffine3, (shape, material): (Option<Shape>, usize)) {
         let centre = shape.as_ref().map(|shape| shape.bounds().centre());
-        self.reader
-            .places
-            .refer(Category::Object, own, Node::Material(material));
         self.reader.places.own.objects.push(Placed {
             transform,
             centre: centre.unwrap_or_default(),
@@ -147,8 +140,18 @@ impl Lowering<'_> {
         }
     }
 
+    /// Gives the area lights their materials, behind those that the text states.
+    pub(super) fn light_up(&mut self) {
+        for &(object, colour) in &self.area_lights {
+            self.objects[object].material = self.materials.all.len() as u32;
+            self.materials.all.push(Material {
+                lit: Faces::Front,
+                ..Material::unlit(colour)
+            });
+        }
+    }
+
     fn sphere(&mut self, read: &Reading<'_>, numbers: &[f64]) -> Option<Shape> {
-        debug_assert!(*read.record == SPHERE);
         let (centre, radius) = (DVec3::from_slice(numbers), numbers[3]);
         let transform = self.state.transform;
         let columns = [transform.x_axis, transform.y_axis, transform.z_axis];
@@ -220,10 +223,13 @@ impl Lowering<'_> {
 
     /// Reads a vertex, a declared number of vertices, or a triangle.
     pub(super) fn piles(&mut self, at: usize, head: Span, read: &Reading<'_>) {
-        let Some(numbers) = read.numbers() else {
+        let record = read.record;
+        // A faulty vertex still has its number.
+        let is_vertex = *record == VERTEX || *record == VERTEX_NORMAL;
+        let known = read.numbers().map(Cow::Borrowed);
+        let Some(numbers) = known.or_else(|| is_vertex.then(|| read.numbers_or_zeros())) else {
             return;
         };
-        let record = read.record;
         let text = self.reader.text;
         let counts = [MAXVERTS, MAXVERTNORMS, TRI, TRI_NORMAL];
         let mut words = read.spans.iter().filter(|_| counts.contains(record));
@@ -247,8 +253,8 @@ impl Lowering<'_> {
         };
         if *record == MAXVERTS || *record == MAXVERTNORMS {
             pile.most = Some((numbers[0], read.spans[0]));
-        } else if *record == VERTEX || *record == VERTEX_NORMAL {
-            pile.vertices.push(DVec3::from_slice(numbers));
+        } else if is_vertex {
+            pile.vertices.push(DVec3::from_slice(&numbers));
             if *record == VERTEX_NORMAL {
                 self.meshes.normals.push(DVec3::from_slice(&numbers[3..]));
             }
@@ -324,12 +330,10 @@ impl Lowering<'_> {
             };
             self.reader.places.push(Category::Object, place);
             self.meshes.open = Some(OpenMesh {
-                first: at,
                 last: at,
                 head,
                 material,
                 transform,
-                record,
                 parts: MeshParts::default(),
                 used: HashMap::new(),
             });
@@ -377,7 +381,6 @@ impl Lowering<'_> {
         let Some(mut mesh) = self.meshes.open.take() else {
             return;
         };
-        debug_assert!(mesh.first <= mesh.last && [TRI, TRI_NORMAL].contains(mesh.record));
         if mesh
             .parts
             .normals
@@ -389,17 +392,8 @@ impl Lowering<'_> {
         }
         let own = self.reader.places.objects().len() - 1 - behind;
         let shape = self.mesh(mesh.parts, mesh.transform, mesh.head);
-        let centre = shape.as_ref().map(|shape| shape.bounds().centre());
-        self.reader.places.own.objects.push(Placed {
-            transform: mesh.transform,
-            centre: centre.unwrap_or_default(),
-        });
         self.reader.places.end(Category::Object, own, mesh.last);
-        if let Some(shape) = shape {
-            self.reader.places.drawn.push(own);
-            let material = mesh.material as u32;
-            self.objects.push(Object { shape, material });
-        }
+        self.draw(own, mesh.transform, (shape, mesh.material));
     }
 
     /// Reports the vertices beyond their declared number, and the triangles without area.

@@ -33,8 +33,6 @@ pub(super) struct State {
     pub(super) transform: DAffine3,
     /// The transforms below, and where they were pushed.
     pub(super) pushed: Vec<(Span, DAffine3)>,
-    /// The depth that the integrator is cut at.
-    pub(super) cut: Option<u32>,
 }
 
 impl Default for State {
@@ -45,7 +43,6 @@ impl Default for State {
             attenuation: [1.0, 0.0, 0.0],
             transform: DAffine3::IDENTITY,
             pushed: Vec::new(),
-            cut: None,
         }
     }
 }
@@ -55,8 +52,8 @@ impl Default for State {
 pub(super) struct Materials {
     pub(super) all: Vec<Material>,
     pub(super) keys: Keys,
-    /// The commands that state each; none for that of a light.
-    pub(super) stated: Vec<Option<[Option<usize>; 5]>>,
+    /// The commands that state each.
+    stated: Vec<[Option<usize>; 5]>,
 }
 
 impl Lowering<'_> {
@@ -152,7 +149,7 @@ impl Lowering<'_> {
             emission,
             ..Material::BLACK
         });
-        self.materials.stated.push(Some(stated));
+        self.materials.stated.push(stated);
         self.materials.keys.insert(stated, index);
         index
     }
@@ -169,7 +166,7 @@ impl Lowering<'_> {
                     refers: [Some(Node::Material(index)), None],
                 })
             };
-            let stated = stated.iter().flat_map(|stated| MATERIAL.iter().zip(stated));
+            let stated = MATERIAL.iter().zip(stated);
             let mut places: Vec<_> = stated.filter_map(of).collect();
             places.sort_unstable_by_key(|place| place.at);
             let mut places = places.into_iter();

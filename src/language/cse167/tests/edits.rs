@@ -119,17 +119,38 @@ fn copies_stand_behind_what_is_selected() {
     check(own, copied, &expected);
 }
 
+const PILE: &str = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 1 1 0\n";
+
 #[test]
-fn a_mesh_with_other_commands_between_its_triangles_is_not_moved() {
-    let pile = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 1 1 0\n";
+fn a_mesh_ends_where_other_commands_stand_between_its_triangles() {
     for between in ["point 0 0 9 1 1 1\n", "pushTransform\npopTransform\n"] {
-        let text = format!("{HEAD}{pile}tri 0 1 2\n{between}tri 1 3 2\n");
-        let (source, _) = read(&text);
-        assert!(
-            source.motion(&[BALL], &Motion::Move(DVec3::X), 2).is_err(),
-            "{text}"
-        );
+        let own = format!("{PILE}tri 0 1 2\n{between}tri 1 3 2\n");
+        let by = Motion::Move(DVec3::X);
+        let moved = |source: &crate::Source| source.motion(&[BALL], &by, 2).expect("it moves");
+        let wrapped = "pushTransform\ntranslate 1 0 0\ntri 0 1 2\npopTransform\n";
+        check(&own, moved, &own.replace("tri 0 1 2\n", wrapped));
     }
+}
+
+#[test]
+fn a_copy_of_a_mesh_is_another_object() {
+    let own = format!("{PILE}tri 0 1 2\n");
+    let copied = |source: &crate::Source| {
+        let copy = source.copied(&[BALL]).expect("it can be");
+        source.insertion(&copy, BALL).expect("it fits").edits
+    };
+    let expected = format!("{own}pushTransform\ntri 0 1 2\npopTransform\n");
+    check(&own, copied, &expected);
+    let (source, _) = read(&format!("{HEAD}{expected}"));
+    assert_eq!(source.nodes().objects(), 2);
+    assert_eq!(source.name(BALL), "object 1 (mesh)");
+}
+
+#[test]
+fn an_object_goes_with_a_push_and_pop_of_its_own() {
+    let own = "sphere 1 0 0 1\npushTransform\nscale 1 2 1\nsphere 0 0 0 1\npopTransform\n";
+    let removed = |source: &crate::Source| source.removal(&[Node::Object(1)]).expect("it goes");
+    check(own, removed, "sphere 1 0 0 1\n");
 }
 
 #[test]

@@ -66,7 +66,7 @@ const ROWS: &[(&str, &str, &[&str])] = &[
     ("tri 0 1 1\ntri 0 1 2\ntrinormal 2 2 0", HEAD, &["1:1 warning: 2 triangles without area"]),
     ("scale 1 1 1e-13\nrotate 1 0 0 45\nsphere 0 0 0 1", HEAD, &["3:8 error: sphere: its transforms flatten it or are too large or too small"]),
     ("scale 1 1 1e-13\nrotate 1 0 0 45", HEAD, &[]),
-    ("integrator fast", HEAD, &["1:12 error: integrator integrator: unknown word `fast`"]),
+    ("integrator fast", HEAD, &["1:12 error: integrator: unknown word `fast`"]),
     ("spp 0", HEAD, &["1:5 error: spp: must be a whole number from 1 to 65536, not `0`"]),
     ("lightsamples 4\nlightstratify on\nbrdf ggx", HEAD, &["1:1 warning: lightsamples: is read over, and so are all of its kind"]),
     ("quadLight 0 0 9 1 0 0 -2 0 0 1 1 1", HEAD, &["1:17 error: quadLight: its edges are parallel or zero"]),

@@ -2,6 +2,7 @@
 
 mod edits;
 mod errors;
+mod meaning;
 mod properties;
 
 use crate::tests::read_as;

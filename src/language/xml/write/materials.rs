@@ -23,6 +23,12 @@ const PHONG: Loss = Loss {
     instead: "written as a phong highlight of the same exponent, which is weaker there",
 };
 
+const BLINN: Loss = Loss {
+    keys: &["specular"],
+    lost: "a highlight that is as strong at grazing angles",
+    instead: "written as a blinn highlight of the same exponent that is weaker there",
+};
+
 const MIRROR: Loss = Loss {
     keys: &["kr", "Kr"],
     lost: "a mirror on both faces",
@@ -104,10 +110,10 @@ pub(super) fn write(
 
 fn report(of: Of, material: &Material, scene: &Scene, losses: &mut Losses<'_>) {
     let mut lose = |loss: &Loss| losses.add(of, loss);
-    if let Highlight::Phong(gloss) | Highlight::PlainBlinn(gloss) = material.highlight
-        && gloss.specular != Rgb::ZERO
-    {
-        lose(&PHONG);
+    match material.highlight {
+        Highlight::Phong(gloss) if gloss.specular != Rgb::ZERO => lose(&PHONG),
+        Highlight::PlainBlinn(gloss) if gloss.specular != Rgb::ZERO => lose(&BLINN),
+        _ => {}
     }
     if material.mirror.tint != Rgb::ZERO && material.mirror.faces == Faces::Both {
         lose(&MIRROR);
