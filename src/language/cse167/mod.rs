@@ -4,7 +4,7 @@
 mod add;
 mod lower;
 mod motion;
-// A slot a row.
+// One slot per row.
 #[rustfmt::skip]
 mod schema;
 #[cfg(test)]

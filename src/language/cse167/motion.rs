@@ -294,7 +294,7 @@ fn transforms(
             about: point,
         } => {
             if !is_similar(frame) {
-                return refused("its transforms are uneven: turn it in its text");
+                return refused("its transform is not uniform: edit its rotation in the text");
             }
             let own = back.transform_vector3(axis).normalize().to_array();
             let angle = angle * frame.matrix3.determinant().signum();

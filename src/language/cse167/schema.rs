@@ -1,4 +1,4 @@
-//! The commands of `.test`, a slot a row.
+//! The commands of `.test`, one slot per row.
 
 use crate::schema::position::words;
 use crate::schema::slots::{choice, colour, number, pixels, place, point, size};
@@ -62,7 +62,7 @@ pub(super) const INTEGRATOR: Record = state("integrator", &["integrator"], &[
 
 pub(super) const SPP: Record = state("spp", &["spp"], &[whole("spp", "Samples per pixel.")]);
 
-const OUTPUT: Record = state("output", &["output"], &[word("file", "The picture's name, which is read over.")]);
+const OUTPUT: Record = state("output", &["output"], &[word("file", "The name of the picture; ignored.")]);
 
 pub(super) const AMBIENT: Record = state("ambient", &["ambient"], &[colour("ambient", "Added as it is.")]);
 pub(super) const DIFFUSE: Record = state("diffuse", &["diffuse"], &[
@@ -105,7 +105,7 @@ pub(super) const QUAD_LIGHT: Record =
 
 pub(super) const PUSH: Record = state("pushTransform", &["pushTransform"], &[]);
 pub(super) const POP: Record = state("popTransform", &["popTransform"], &[]);
-pub(super) const TRANSLATE: Record = state("translate", &["translate"], &[point("by", "The way that things move.")]);
+pub(super) const TRANSLATE: Record = state("translate", &["translate"], &[point("by", "The displacement.")]);
 pub(super) const SCALE: Record = state("scale", &["scale"], &[point("by", "The factors along x, y and z.")]);
 pub(super) const ROTATE: Record = state("rotate", &["rotate"], &[
     Slot::Field(Field { kind: Kind::Rotation, step: 1.0, ..Field::point("about", "An axis and an angle in degrees.") }),
@@ -138,7 +138,7 @@ const BRDF: Record = state("brdf", &["brdf"], IGNORED);
 /// The commands that a mesh is made of.
 pub(super) const PILES: [Record; 6] = [MAXVERTS, MAXVERTNORMS, VERTEX, VERTEX_NORMAL, TRI, TRI_NORMAL];
 
-/// The commands that are read over, with one note for all.
+/// The commands that are ignored, with one warning for all.
 pub(super) const READ_OVER: [&str; 6] = [
     LIGHT_SAMPLES.name, LIGHT_STRATIFY.name, NEXT_EVENT_ESTIMATION.name, RUSSIAN_ROULETTE.name,
     IMPORTANCE_SAMPLING.name, BRDF.name,
@@ -149,7 +149,7 @@ const CORNERS: &[Slot] = &[
     whole("second", "The number of a vertex, from 0."),
     whole("third", "The number of a vertex, from 0."),
 ];
-const IGNORED: &[Slot] = &[word("value", "It is read over.")];
+const IGNORED: &[Slot] = &[word("value", "Ignored.")];
 
 const fn whole(key: &'static str, doc: &'static str) -> Slot {
     Slot::Field(Field { kind: Kind::Number, allowed: Range::Identity, usual: Range::Identity, step: 1.0, ..Field::point(key, doc) })

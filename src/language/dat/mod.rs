@@ -3,7 +3,7 @@
 mod add;
 mod lower;
 mod quadric;
-// A slot a row.
+// One slot per row.
 #[rustfmt::skip]
 mod schema;
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The records of `.dat`, a slot a row.
+//! The records of `.dat`, one slot per row.
 
 use crate::schema::layout::Unit;
 use crate::schema::position::words;

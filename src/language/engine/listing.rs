@@ -33,7 +33,7 @@ impl<L: Language> Source<L> {
             .iter()
             .any(|record| record.makes == Makes::List)
         {
-            return Err("the language has no word for hiding an object");
+            return Err("this language cannot hide objects");
         }
         let (text, origins) = (&*self.text, &self.origins);
         let objects: HashSet<_> = objects.iter().copied().collect();

@@ -47,7 +47,7 @@ pub(crate) trait Language: Clone + Copy + Debug + Default + Send + Sync + 'stati
     /// The kinds of things that can be added.
     const ADDITIONS: &'static [Addition];
 
-    /// What a text says beside its nodes.
+    /// What a text says besides its nodes.
     type Own: Clone + Debug + Default + Send + Sync;
 
     /// The render settings that hold where the text's own say nothing.

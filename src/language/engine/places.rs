@@ -24,7 +24,7 @@ pub(crate) struct Places<Own> {
     pub(crate) list: Option<usize>,
     /// The drawn objects, ascending: those of the scene.
     pub(crate) drawn: Vec<usize>,
-    /// What the language says beside its nodes.
+    /// What the text says besides its nodes.
     pub(crate) own: Own,
 }
 

@@ -6,13 +6,21 @@ use crate::report::{Name, did_you_mean, quoted};
 use crate::schema::{Field, Record, Repeat, Slot};
 use text::{Diagnostic, Span, counted, nearest_word};
 
+/// The most words listed as what a line may begin with.
+const LISTED: usize = 12;
+
 /// The warning for a line that begins with an unknown word.
 pub(super) fn unknown_record<L: Language>(text: &str, first: Span) -> Diagnostic {
     let words = L::SCHEMA.first_words();
     let word = first.of(text);
     let noun = L::SCHEMA.noun;
     let message = format!("unknown {noun} {}: the line is skipped", quoted(word));
-    let diagnostic = Diagnostic::warning(first, message, words.join(", "));
+    let expected = if words.len() <= LISTED {
+        words.join(", ")
+    } else {
+        format!("a known {noun}")
+    };
+    let diagnostic = Diagnostic::warning(first, message, expected);
     let marks = L::COMMENTS.iter().rev().map(|mark| format!("`{mark}`"));
     let marks: Vec<_> = marks.collect();
     let otherwise = format!("{} begins a comment line", marks.join(" or "));

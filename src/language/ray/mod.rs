@@ -12,7 +12,7 @@ mod reader;
 mod roles;
 mod scene_text;
 mod structure;
-// A slot a row.
+// One slot per row.
 #[rustfmt::skip]
 mod schema;
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The records of `.ray`, a slot a row.
+//! The records of `.ray`, one slot per row.
 
 use crate::schema::layout::{Layout, Unit};
 use crate::schema::slots::{colour, direction, edge, pixels, place, point, radius, share, share_of_light};

@@ -41,7 +41,7 @@ pub(super) fn errors_of_beginning(text: &str, lines: &Lines<Cse167>) -> Findings
     lowering.reader.report
 }
 
-/// What a text says beside its nodes.
+/// What a text says besides its nodes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Own {
     /// The render settings that its commands state, or its defaults.
@@ -120,7 +120,7 @@ struct Lowering<'a> {
     rendering: Rendering,
     /// The depth that the integrator cuts paths at.
     cut: Option<u32>,
-    /// The first command that is read over.
+    /// The first command that is ignored.
     read_over: Option<Span>,
 }
 
@@ -310,16 +310,16 @@ impl<'a> Lowering<'a> {
                 Diagnostic::warning(
                     open,
                     "pushTransform: is never undone by popTransform",
-                    "a popTransform behind it",
+                    "a matching popTransform",
                 )
             });
         }
         if let Some(first) = self.read_over {
             self.reader.report.warning(|| {
                 let word = first.of(self.reader.text);
-                let message = format!("{word}: is read over, and so are all of its kind");
-                Diagnostic::warning(first, message, "commands that change the picture here")
-                    .with_hint("the sampling is Halflight's own")
+                let message = format!("{word}: ignored, like all commands for sampling");
+                Diagnostic::warning(first, message, "a command that affects the picture")
+                    .with_hint("the renderer chooses its samples itself")
             });
         }
         if self.reader.places.objects().is_empty() && self.reader.report.errors() == 0 {

@@ -1,4 +1,4 @@
-//! What is said of malformed texts, and of what is read over.
+//! What is said of malformed texts, and of what is ignored.
 
 use super::read;
 use crate::tests::shown;
@@ -68,7 +68,7 @@ const ROWS: &[(&str, &str, &[&str])] = &[
     ("scale 1 1 1e-13\nrotate 1 0 0 45", HEAD, &[]),
     ("integrator fast", HEAD, &["1:12 error: integrator: unknown word `fast`"]),
     ("spp 0", HEAD, &["1:5 error: spp: must be a whole number from 1 to 65536, not `0`"]),
-    ("lightsamples 4\nlightstratify on\nbrdf ggx", HEAD, &["1:1 warning: lightsamples: is read over, and so are all of its kind"]),
+    ("lightsamples 4\nlightstratify on\nbrdf ggx", HEAD, &["1:1 warning: lightsamples: ignored, like all commands for sampling"]),
     ("quadLight 0 0 9 1 0 0 -2 0 0 1 1 1", HEAD, &["1:17 error: quadLight: its edges are parallel or zero"]),
     ("quadLight 0 0 9 0 0 0 1 0 0 1 1 1", HEAD, &["1:17 error: quadLight: its edges are parallel or zero"]),
     ("# render: depth x", HEAD, &["1:17 warning: render depth: `x` is not a number"]),
