@@ -29,6 +29,8 @@ pub(super) struct Implicit {
     pub(super) element: Option<&'static str>,
     /// The place and the surroundings of the insertion.
     pub(super) insertion: Insertion,
+    /// What must be inserted elsewhere to limit the effect to the node.
+    pub(super) limit: Option<Edit>,
 }
 
 /// A missing attribute.
@@ -99,6 +101,7 @@ pub(super) fn insertions(
     markup: impl Fn(&Implicit, &[(usize, String)]) -> String,
 ) -> Vec<Edit> {
     let mut insertions: Vec<(&Insertion, Vec<String>)> = Vec::new();
+    let mut limits = Vec::new();
     for (placed, values) in wanted {
         let mut missing = values.clone();
         missing.retain(|(component, _)| placed.default_of(*component).is_some());
@@ -106,6 +109,7 @@ pub(super) fn insertions(
             continue;
         };
         let inserted = markup(implicit, &missing);
+        limits.extend(implicit.limit.clone());
         match insertions
             .iter_mut()
             .find(|(place, _)| **place == implicit.insertion)
@@ -115,7 +119,8 @@ pub(super) fn insertions(
         }
     }
     let edits = insertions.into_iter();
-    edits.map(|(place, all)| place.edit(text, &all)).collect()
+    let edits = edits.map(|(place, all)| place.edit(text, &all));
+    edits.chain(limits).collect()
 }
 
 impl Insertion {

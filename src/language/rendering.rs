@@ -313,6 +313,7 @@ pub(super) fn fields(
                 }],
                 element,
                 insertion: insertion.clone(),
+                limit: None,
             })),
         }
     };

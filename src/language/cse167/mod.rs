@@ -3,6 +3,7 @@
 
 mod add;
 mod lower;
+mod material;
 mod motion;
 // One slot per row.
 #[rustfmt::skip]
@@ -15,6 +16,7 @@ mod write;
 use crate::engine::lines::Lines;
 use crate::engine::places::Places;
 use crate::engine::{self, Language};
+use crate::field_spans::{FieldSpans, Wanted};
 use crate::memory_estimate::{Counts, each};
 use crate::schema::{Category, Record, Schema};
 use crate::structure::{Addition, NewNode, Placement};
@@ -70,6 +72,14 @@ impl Language for Cse167 {
 
     fn lower(text: &str, lines: &Lines<Self>) -> (Places<Own>, Lowered) {
         lower::lower(text, lines)
+    }
+
+    fn further_fields(source: &Source, node: Node) -> Vec<FieldSpans> {
+        source.caught(node)
+    }
+
+    fn insertions(text: &str, wanted: &[Wanted<'_>]) -> Vec<Edit> {
+        material::insertions(text, wanted)
     }
 
     fn view_numbers(_: &Source, camera: &Camera) -> Numbers {

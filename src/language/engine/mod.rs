@@ -19,7 +19,9 @@ mod wording;
 
 use std::fmt::Debug;
 
+use crate::field_spans::{FieldSpans, Wanted};
 use crate::node::Node;
+use crate::rendering;
 use crate::schema::{Category, Record, Schema};
 use crate::structure::{Addition, NewNode, Placement};
 use crate::view::Numbers;
@@ -54,6 +56,17 @@ pub(crate) trait Language: Clone + Copy + Debug + Default + Send + Sync + 'stati
     fn defaults(own: &Self::Own) -> Rendering {
         let _ = own;
         Rendering::default()
+    }
+
+    /// The parts of a node that no record of its own states.
+    fn further_fields(source: &Source<Self>, node: Node) -> Vec<FieldSpans> {
+        let _ = (source, node);
+        Vec::new()
+    }
+
+    /// Returns the edits that insert these values where the text omits them.
+    fn insertions(text: &str, wanted: &[Wanted<'_>]) -> Vec<Edit> {
+        rendering::insertions(text, wanted)
     }
 
     /// Lowers a text and finds the places of its nodes.

@@ -142,7 +142,7 @@ impl<Own> Places<Own> {
 }
 
 /// Distributes the tokens of a record to its fields, until one is incomplete.
-pub(super) fn fields<L: Language>(
+pub(crate) fn fields<L: Language>(
     text: &str,
     lines: &Lines<L>,
     (at, record): (usize, &'static Record),

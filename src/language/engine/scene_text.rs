@@ -7,6 +7,7 @@ use super::motion::Moves;
 use super::places::{Place, fields};
 use super::reader::name;
 use super::{Language, Source};
+use crate::field_spans::{self, Wanted};
 use crate::memory_estimate::scene_fits;
 use crate::node::{FileKind, object_at, place_of};
 use crate::rendering::{self, Around};
@@ -33,6 +34,13 @@ where
 
     fn leaves(&self) -> Vec<Span> {
         leaves::<L>(&self.text)
+    }
+
+    fn edits(&self, wanted: &[Wanted<'_>]) -> Vec<Edit> {
+        let mut edits = field_spans::edits(self, wanted);
+        edits.extend(L::insertions(&self.text, wanted));
+        Edit::sort(&mut edits);
+        edits
     }
 
     fn nodes(&self) -> Nodes {
@@ -73,9 +81,8 @@ where
                 };
                 let records = self.origins.records::<L>(node);
                 let records = records.filter(|(_, record)| has_fields(record));
-                records
-                    .flat_map(|record| fields(&self.text, &self.tree, record))
-                    .collect()
+                let own = records.flat_map(|record| fields(&self.text, &self.tree, record));
+                own.chain(L::further_fields(self, node)).collect()
             }
         }
     }

@@ -1,7 +1,7 @@
 //! What the commands of a `.test` text mean: a state, which the primitives and lights catch.
 
 mod objects;
-mod state;
+pub(super) mod state;
 
 use std::collections::HashMap;
 
@@ -52,6 +52,10 @@ pub(crate) struct Own {
     pub(super) lights: Vec<DAffine3>,
     /// The transforms that each push keeps, by its index.
     pub(super) pushed: HashMap<usize, DAffine3>,
+    /// The commands that state each material.
+    pub(super) stated: Vec<[Option<usize>; 5]>,
+    /// The number of objects that catch what each command states, by its index.
+    pub(super) catches: HashMap<usize, usize>,
     /// The number of pushes that are open at the end of the text, and the transforms below them.
     pub(super) open: usize,
     pub(super) end: DAffine3,

@@ -1,5 +1,7 @@
 //! The state that primitives and lights catch: the material, the attenuation, the transforms.
 
+use std::collections::HashMap;
+
 use glam::{DAffine3, DVec3};
 
 use super::{Keys, Lowering};
@@ -20,6 +22,10 @@ use text::{Diagnostic, Span};
 pub(in crate::cse167) const MATERIAL: [&Record; 5] =
     [&AMBIENT, &DIFFUSE, &SPECULAR, &EMISSION, &SHININESS];
 
+/// Their values where none stands; only the first counts of the last.
+pub(in crate::cse167) const DEFAULTS: [[f64; 3]; 5] =
+    [[0.2; 3], [0.0; 3], [0.0; 3], [0.0; 3], [1.0; 3]];
+
 /// The state at a place in the text.
 #[derive(Clone, Debug)]
 pub(super) struct State {
@@ -38,7 +44,7 @@ pub(super) struct State {
 impl Default for State {
     fn default() -> Self {
         Self {
-            values: [Rgb::splat(0.2), Rgb::ZERO, Rgb::ZERO, Rgb::ZERO, Rgb::ONE],
+            values: DEFAULTS.map(Rgb::from_array),
             stated: [None; 5],
             attenuation: [1.0, 0.0, 0.0],
             transform: DAffine3::IDENTITY,
@@ -180,5 +186,14 @@ impl Lowering<'_> {
             self.reader.places.push(Category::Material, first);
             self.reader.places.uses.extend(places);
         }
+        let places = &mut self.reader.places;
+        let materials = places.objects().iter();
+        let materials = materials.flat_map(|object| object.of(Category::Material));
+        let mut catches = HashMap::new();
+        for command in materials.flat_map(|at| self.materials.stated[at]).flatten() {
+            *catches.entry(command).or_default() += 1;
+        }
+        places.own.catches = catches;
+        places.own.stated = std::mem::take(&mut self.materials.stated);
     }
 }

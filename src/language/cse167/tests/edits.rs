@@ -212,3 +212,64 @@ fn motions_change_numbers_or_wrap_the_object() {
         check(&own, moved, &expected);
     }
 }
+
+/// A value of its own for one object stands in front of it, and what was in force behind it.
+#[test]
+fn one_object_gets_a_value_of_its_own() {
+    let set = |node: Node, key: &'static str, values: &'static [(usize, &'static str)]| {
+        move |source: &crate::Source| {
+            let fields = source.fields(node);
+            let placed = fields.iter().find(|placed| placed.field.key == key);
+            let values = values.iter().map(|(at, value)| (*at, (*value).to_owned()));
+            placed
+                .expect("it has one")
+                .edits(&**source, &values.collect::<Vec<_>>())
+        }
+    };
+    let two = "diffuse .5 .5 .5\n  sphere 0 0 0 1\nsphere 2 0 0 1\n";
+    for (own, node, key, values, expected) in [
+        // Several objects catch the colour.
+        (
+            two,
+            BALL,
+            "diffuse",
+            &[(0, "1")][..],
+            "diffuse .5 .5 .5\n  diffuse 1 .5 .5\n  sphere 0 0 0 1\n  diffuse .5 .5 .5\nsphere 2 0 0 1\n",
+        ),
+        // No command states it.
+        (
+            two,
+            Node::Object(1),
+            "shininess",
+            &[(0, "9")],
+            "diffuse .5 .5 .5\n  sphere 0 0 0 1\nshininess 9\nsphere 2 0 0 1\nshininess 1\n",
+        ),
+        // No other object catches it.
+        (
+            "diffuse .5 .5 .5\nsphere 0 0 0 1",
+            BALL,
+            "diffuse",
+            &[(2, "1")],
+            "diffuse .5 .5 1\nsphere 0 0 0 1",
+        ),
+        // Nothing states a material.
+        (
+            "sphere 0 0 0 1\nsphere 2 0 0 1",
+            Node::Material(0),
+            "ambient",
+            &[(1, "0")],
+            "ambient 0.2 0 0.2\nsphere 0 0 0 1\nsphere 2 0 0 1",
+        ),
+        // A mesh of several lines.
+        (
+            "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\ntri 0 1 2\nvertex 1 1 0\ntri 1 3 2\nsphere 0 0 0 1\n",
+            BALL,
+            "emission",
+            &[(0, ".1"), (1, ".2")],
+            "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nemission .1 .2 0\ntri 0 1 2\nvertex 1 1 0\n\
+             tri 1 3 2\nemission 0 0 0\nsphere 0 0 0 1\n",
+        ),
+    ] {
+        check(own, set(node, key, values), expected);
+    }
+}

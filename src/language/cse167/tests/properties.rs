@@ -70,6 +70,48 @@ fn an_edit_at_a_place_changes_only_that_word() {
     }
 }
 
+#[test]
+fn a_value_of_its_own_changes_no_other_object() {
+    let mut random = Random(53);
+    let mut changed = 0;
+    for round in 0..1_000 {
+        let text = SCENES[round % SCENES.len()];
+        let (source, before) = read(text);
+        let objects = source.nodes().objects;
+        let object = random.below(objects);
+        let node = Node::Object(object);
+        let fields = source.fields(node).into_iter();
+        let fields: Vec<_> = fields.filter(|placed| !placed.is_explicit()).collect();
+        if fields.is_empty() {
+            continue;
+        }
+        let placed = &fields[random.below(fields.len())];
+        let component = random.below(placed.spans.len());
+        let literal = random.literal(placed.field);
+        let mut edited = text.to_owned();
+        let edits = placed.edits(&*source, &[(component, literal.clone())]);
+        let undo = apply(&mut edited, &edits);
+        let (again, after) = read(&edited);
+        let Some((before, after)) = before.scene.zip(after.scene) else {
+            panic!("{edited}");
+        };
+        let stated = again.fields(node).into_iter();
+        let mut stated = stated.filter(|now| now.field == placed.field);
+        let now = stated.next().expect("it is still there");
+        assert_eq!(now.spans[component].of(&edited), literal, "{edited}");
+        let drawn = source.drawn(object);
+        for (index, (old, new)) in (0..).zip(before.objects.iter().zip(after.objects.iter())) {
+            let [old, new] = [(&before, old), (&after, new)]
+                .map(|(scene, object)| &scene.materials[object.material as usize]);
+            assert!(Some(index) == drawn || old == new, "{edited}");
+        }
+        changed += 1;
+        apply(&mut edited, &undo);
+        assert_eq!(edited, text);
+    }
+    assert!(500 < changed, "{changed}");
+}
+
 /// Lowers an arbitrary text and checks that the results are consistent with it.
 fn check_any(text: &str) {
     let (source, lowered) = read(text);

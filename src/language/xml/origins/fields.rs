@@ -140,6 +140,7 @@ impl Rows<'_> {
                 }],
                 element: None,
                 insertion,
+                limit: None,
             })),
         });
     }
@@ -258,6 +259,7 @@ impl Rows<'_> {
                     .collect(),
                 element: None,
                 insertion: insertion.clone(),
+                limit: None,
             })
         };
         self.placed.push(FieldSpans {
@@ -296,6 +298,7 @@ impl Rows<'_> {
                     .collect(),
                 element: Some(parameter.element),
                 insertion,
+                limit: None,
             })),
         });
     }
