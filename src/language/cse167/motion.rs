@@ -1,13 +1,17 @@
 //! Motions of what `.test` places: of a sphere or a light by its own numbers, of anything else by
 //! transforms in a push and pop of its own.
 
+use std::fmt::{self, Display, Formatter};
+use std::ops::Range;
+
 use glam::{DAffine3, DVec3};
 
 use super::Source;
+use super::lower::Placed;
 use super::schema::{POP, PUSH, ROTATE, SCALE, SCHEMA, SPHERE, TRANSLATE, TRI, TRI_NORMAL};
 use crate::engine::identities::kind;
 use crate::engine::motion::Moves;
-use crate::engine::places::Place;
+use crate::engine::places::{Place, fields};
 use crate::field_spans::FieldSpans;
 use crate::form::{Along, Form, PRECISE, rounded};
 use crate::schema::{Makes, Part, Record, Schema};
@@ -81,12 +85,7 @@ impl Moves for Source {
                 if *place.record == SPHERE && is_even {
                     return Ok(self.moved_by_numbers(node, &placed.transform, motion, decimals));
                 }
-                self.wrapped(
-                    [place.at, place.end],
-                    &placed.transform,
-                    placed.centre,
-                    motion,
-                )
+                self.wrapped([place.at, place.end], &placed, motion)
             }
             _ => Err(fixed()),
         }
@@ -180,22 +179,27 @@ impl Source {
         edits
     }
 
-    /// The edits that put transforms before some commands: into a push and pop of their own if they have
-    /// one, otherwise into a new one.
+    /// The edits that put transforms around some commands: into a push and pop of their own if they have
+    /// one, where transforms of the same kind become one, otherwise into a new one.
     fn wrapped(
         &self,
         [first, last]: [usize; 2],
-        inner: &DAffine3,
-        centre: DVec3,
+        placed: &Placed,
         motion: &Motion,
     ) -> Result<Vec<Edit>, StructureError> {
-        let text = &*self.text;
+        let (text, own) = (&*self.text, &self.origins.own);
         let end = line_ending(text);
         let line = |at: usize| {
             let span = self.tree.span(at);
             Span::new(line_from(text, span.start()), line_end(text, span.end()))
         };
         let indent = |at: usize| &text[line(at).start()..self.tree.span(at).start()];
+        let insert = |at, text| Edit {
+            span: Span::at(at),
+            text,
+        };
+        let push = self.own_push(first, last);
+        // Scaling along its own axes acts before all other transforms.
         let is_own = matches!(
             motion,
             Motion::Scale {
@@ -203,34 +207,62 @@ impl Source {
                 ..
             }
         );
-        let pushed = self.own_push(first, last).filter(|_| !is_own);
-        let frame = match pushed {
-            Some(push) => self
-                .origins
-                .own
-                .pushed
-                .get(&push)
-                .copied()
-                .unwrap_or(*inner),
-            None => *inner,
+        let frame = push
+            .filter(|_| !is_own)
+            .and_then(|push| own.pushed.get(&push));
+        let new = transforms(frame.unwrap_or(&placed.transform), placed.centre, motion)?;
+        let lines = |indent: &str, before: &str, behind: &str| -> String {
+            let lines = new.iter().map(Transform::to_string);
+            lines
+                .flat_map(|one| [before, indent, &one, behind].map(str::to_owned))
+                .collect()
         };
-        let transforms = transforms(&frame, centre, motion)?;
-        let insert = |at, text| Edit {
-            span: Span::at(at),
-            text,
+        let Some(push) = push else {
+            let indent = indent(first);
+            let opening = format!("{indent}{}{end}{}", PUSH.name, lines(indent, "", end));
+            return Ok(vec![
+                insert(line(first).start(), opening),
+                insert(line(last).end(), format!("{end}{indent}{}", POP.name)),
+            ]);
         };
-        if let Some(push) = pushed {
-            let indent = indent(push + 1);
-            let lines = transforms.iter().flat_map(|one| [end, indent, one]);
-            return Ok(vec![insert(line(push).end(), lines.collect())]);
+        let begin = if is_own {
+            first.saturating_sub(new.len())
+        } else {
+            0
+        };
+        if let Some(edits) = self.joined(begin.max(push + 1)..first, &new, is_own) {
+            return Ok(edits);
         }
-        let indent = indent(first);
-        let opening = std::iter::once("pushTransform").chain(transforms.iter().map(String::as_str));
-        let opening = opening.flat_map(|one| [indent, one, end]).collect();
-        Ok(vec![
-            insert(line(first).start(), opening),
-            insert(line(last).end(), format!("{end}{indent}popTransform")),
-        ])
+        Ok(vec![if is_own {
+            insert(line(first).start(), lines(indent(first), "", end))
+        } else {
+            insert(line(push).end(), lines(indent(push + 1), end, ""))
+        }])
+    }
+
+    /// The edits that join transforms with the same kind of transforms among these commands, at their
+    /// beginning or, if they come `last`, at their end: about one point, two are one.
+    fn joined(&self, commands: Range<usize>, new: &[Transform], last: bool) -> Option<Vec<Edit>> {
+        let known = commands.take(new.len()).map(|at| self.transform(at));
+        let known: Vec<_> = known.collect::<Option<_>>()?;
+        let point = if last { new.len() - 1 } else { 0 };
+        let is_about = |known: &(Transform, Vec<Span>)| known.0.is_like(&new[point]);
+        if new.len() != 1 && !known.get(point).is_some_and(is_about) {
+            return None;
+        }
+        let middle = new.len() / 2;
+        let (old, spans) = known.get(middle)?;
+        let numbers = new[middle].after(old)?;
+        Some(replacements(&self.text, spans, &numbers))
+    }
+
+    /// The transform that a command is, with the places of its numbers.
+    fn transform(&self, at: usize) -> Option<(Transform, Vec<Span>)> {
+        let transforms = [&TRANSLATE, &SCALE, &ROTATE];
+        let record = self.kind(at).filter(|kind| transforms.contains(kind))?;
+        let spans = fields(&self.text, &self.tree, (at, record)).pop()?.spans;
+        let numbers = spans.iter().map(|span| number(&self.text, *span)).collect();
+        Some((Transform { record, numbers }, spans))
     }
 
     /// The push of a pair that holds no other primitive or light than these commands.
@@ -262,32 +294,92 @@ pub(super) fn is_similar(transform: &DAffine3) -> bool {
         && across.iter().all(|dot| dot.abs() <= ALIKE * a * a)
 }
 
+/// A command of a transform.
+#[derive(Clone, Debug)]
+struct Transform {
+    record: &'static Record,
+    numbers: Vec<f64>,
+}
+
+impl Display for Transform {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(self.record.name)?;
+        for &number in &self.numbers {
+            write!(
+                f,
+                " {}",
+                spelled(rounded_off(rounded(0.0, number, PRECISE)))
+            )?;
+        }
+        Ok(())
+    }
+}
+
+impl Transform {
+    fn translate(by: DVec3) -> Self {
+        Self {
+            record: &TRANSLATE,
+            numbers: by.to_array().into(),
+        }
+    }
+
+    /// Whether it is the same but for rounding.
+    fn is_like(&self, other: &Self) -> bool {
+        let mut pairs = self.numbers.iter().zip(&other.numbers);
+        self.record == other.record
+            && pairs.all(|(one, other)| (one - other).abs() <= ALIKE * one.abs().max(1.0))
+    }
+
+    /// The numbers of the one transform that does what `first` and then this one do; `None` if they are
+    /// of different kinds or about different axes.
+    fn after(&self, first: &Self) -> Option<Vec<f64>> {
+        let pairs = first.numbers.iter().zip(&self.numbers);
+        if self.record != first.record {
+            return None;
+        }
+        let join = |old: f64, new: f64| {
+            if *self.record == SCALE {
+                old * new
+            } else {
+                old + new
+            }
+        };
+        if *self.record != ROTATE {
+            return Some(
+                pairs
+                    .map(|(&old, &new)| rounded(old, join(old, new), PRECISE))
+                    .collect(),
+            );
+        }
+        let axis = |of: &Self| DVec3::from_slice(&of.numbers).normalize_or_zero();
+        if !axis(self).abs_diff_eq(axis(first), ALIKE) {
+            return None;
+        }
+        let mut numbers = first.numbers.clone();
+        numbers[3] = rounded(numbers[3], (numbers[3] + self.numbers[3]) % 360.0, PRECISE);
+        Some(numbers)
+    }
+}
+
 /// The commands that, in this frame, do what a motion does in the world.
 fn transforms(
     frame: &DAffine3,
     centre: DVec3,
     motion: &Motion,
-) -> Result<Vec<String>, StructureError> {
+) -> Result<Vec<Transform>, StructureError> {
     let refused = |reason: &str| Err(StructureError::Inexpressible(reason.to_owned()));
     let back = frame.inverse();
-    let words = |name: &str, numbers: &[f64]| {
-        let literal = |number: &f64| spelled(rounded_off(rounded(0.0, *number, PRECISE)));
-        let numbers: Vec<_> = numbers.iter().map(literal).collect();
-        format!("{name} {}", numbers.join(" "))
-    };
-    let about = |point: DVec3, inner: String| {
+    let about = |point: DVec3, record, numbers: Vec<f64>| {
+        let inner = Transform { record, numbers };
         let point = back.transform_point3(point);
         if point == DVec3::ZERO {
             return vec![inner];
         }
-        let to = words("translate", &point.to_array());
-        vec![to, inner, words("translate", &(-point).to_array())]
+        let [to, back] = [point, -point].map(Transform::translate);
+        vec![to, inner, back]
     };
     match *motion {
-        Motion::Move(by) => Ok(vec![words(
-            "translate",
-            &back.transform_vector3(by).to_array(),
-        )]),
+        Motion::Move(by) => Ok(vec![Transform::translate(back.transform_vector3(by))]),
         Motion::Rotate {
             axis,
             angle,
@@ -298,8 +390,7 @@ fn transforms(
             }
             let own = back.transform_vector3(axis).normalize().to_array();
             let angle = angle * frame.matrix3.determinant().signum();
-            let turn = words("rotate", &[own[0], own[1], own[2], angle]);
-            Ok(about(point, turn))
+            Ok(about(point, &ROTATE, vec![own[0], own[1], own[2], angle]))
         }
         Motion::Scale {
             factor,
@@ -330,7 +421,7 @@ fn transforms(
                     point
                 }
             };
-            Ok(about(point, words("scale", &factors.to_array())))
+            Ok(about(point, &SCALE, factors.to_array().into()))
         }
     }
 }

@@ -19,6 +19,8 @@ use crate::engine::reader::{Reader, Reading};
 use crate::report::quoted;
 use crate::schema::Category;
 use objects::Meshes;
+
+pub(super) use objects::Placed;
 use scene::{Integrator, Light, MAX_DEPTH, Object, Rendering, Rgb, Scene, Setting};
 use state::{Materials, State};
 use text::{Diagnostic, Findings, Span, is_integer};
@@ -47,7 +49,7 @@ pub(crate) struct Own {
     /// The render settings that its commands state, or its defaults.
     pub(super) rendering: Rendering,
     /// Where the transforms place each object.
-    pub(super) objects: Vec<objects::Placed>,
+    pub(super) objects: Vec<Placed>,
     /// The transforms of each light.
     pub(super) lights: Vec<DAffine3>,
     /// The transforms that each push keeps, by its index.

@@ -123,16 +123,14 @@ impl Lowering<'_> {
                 material,
             )
         };
-        self.draw(own, transform, (shape, material));
+        let centre = shape.as_ref().map(|shape| shape.bounds().centre());
+        let centre = centre.unwrap_or_default();
+        self.draw(own, Placed { transform, centre }, (shape, material));
     }
 
     /// Notes where an object is, and draws it if it has a shape.
-    fn draw(&mut self, own: usize, transform: DAffine3, (shape, material): (Option<Shape>, usize)) {
-        let centre = shape.as_ref().map(|shape| shape.bounds().centre());
-        self.reader.places.own.objects.push(Placed {
-            transform,
-            centre: centre.unwrap_or_default(),
-        });
+    fn draw(&mut self, own: usize, place: Placed, (shape, material): (Option<Shape>, usize)) {
+        self.reader.places.own.objects.push(place);
         if let Some(shape) = shape {
             self.reader.places.drawn.push(own);
             let material = material as u32;
@@ -391,9 +389,18 @@ impl Lowering<'_> {
             mesh.parts.normals = Attribute::default();
         }
         let own = self.reader.places.objects().len() - 1 - behind;
-        let shape = self.mesh(mesh.parts, mesh.transform, mesh.head);
+        // The centre of the box around it before its transforms stays where it is in any turn.
+        let corners = || mesh.parts.positions.iter().copied();
+        let least = corners().reduce(DVec3::min).unwrap_or_default();
+        let most = corners().reduce(DVec3::max).unwrap_or_default();
+        let (transform, centre) = (mesh.transform, least.midpoint(most));
+        let place = Placed {
+            transform,
+            centre: transform.transform_point3(centre),
+        };
+        let shape = self.mesh(mesh.parts, transform, mesh.head);
         self.reader.places.end(Category::Object, own, mesh.last);
-        self.draw(own, mesh.transform, (shape, mesh.material));
+        self.draw(own, place, (shape, mesh.material));
     }
 
     /// Reports the vertices beyond their declared number, and the triangles without area.

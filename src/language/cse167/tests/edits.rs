@@ -213,6 +213,63 @@ fn motions_change_numbers_or_wrap_the_object() {
     }
 }
 
+/// Transforms of one kind about one point become one command, whatever stands behind them.
+#[test]
+fn repeated_motions_of_a_mesh_change_one_transform() {
+    let by = |x: f64, y: f64| Motion::Move(DVec3::new(x, y, 0.0));
+    let about = DVec3::new(0.5, 0.5, 0.0);
+    let turn = |angle| Motion::Rotate {
+        axis: DVec3::Z,
+        angle,
+        about,
+    };
+    let scale = |factor, along| Motion::Scale {
+        factor,
+        along,
+        about,
+    };
+    let (all, own) = (Along::All, Along::Own(0));
+    let (there, back) = ("  translate 0.5 0.5 0\n", "  translate -0.5 -0.5 0\n");
+    for (motions, expected) in [
+        (
+            vec![by(1.0, 0.0), by(0.5, 2.0), by(0.1, 0.0)],
+            "  translate 1.6 2 0\n".to_owned(),
+        ),
+        (
+            vec![turn(30.0), turn(15.0)],
+            format!("{there}  rotate 0 0 1 45\n{back}"),
+        ),
+        (
+            vec![scale(2.0, all), scale(1.5, all)],
+            format!("{there}  scale 3 3 3\n{back}"),
+        ),
+        (
+            vec![scale(2.0, own), scale(2.0, own)],
+            format!("{there}  scale 4 1 1\n{back}"),
+        ),
+        (
+            vec![by(1.0, 0.0), scale(2.0, own), scale(1.5, own), by(1.0, 0.0)],
+            format!("  translate 2 0 0\n{there}  scale 3 1 1\n{back}"),
+        ),
+        (
+            vec![turn(30.0), by(1.0, 0.0)],
+            format!("  translate 1.5 0.5 0\n  rotate 0 0 1 30\n{back}"),
+        ),
+    ] {
+        let mesh = |before: &str, behind: &str| {
+            format!("{HEAD}vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n{before}  tri 0 1 2\n{behind}")
+        };
+        let mut text = mesh("", "");
+        for motion in &motions {
+            let (source, _) = read(&text);
+            let edits = source.motion(&[BALL], motion, 2).expect("it moves");
+            apply(&mut text, &edits);
+        }
+        let (push, pop) = ("  pushTransform\n", "  popTransform\n");
+        assert_eq!(text, mesh(&format!("{push}{expected}"), pop));
+    }
+}
+
 /// A value of its own for one object stands in front of it, and what was in force behind it.
 #[test]
 fn one_object_gets_a_value_of_its_own() {
