@@ -4,9 +4,12 @@ use glam::DVec3;
 
 use super::Source;
 use super::motion::is_similar;
-use crate::structure::{NewNode, lines_after};
+use super::schema::DIRECTIONAL;
+use crate::structure::{NewNode, lines_after, number};
 use crate::view::line_ending;
-use crate::{Addition, Node, Placement, StructureEdits, StructureError};
+use crate::words::Words;
+use crate::{Addition, Node, Placement, SceneText, StructureEdits, StructureError};
+use text::{Edit, Span};
 
 /// The kinds of things that can be added.
 pub(super) const ADDITIONS: &[Addition] = &[
@@ -66,5 +69,26 @@ pub(super) fn addition(
             Ok(Placement { edits, at: 0 })
         }
         None => source.insertion(&sphere, wish.after),
+    }
+}
+
+impl Source {
+    /// The edits that make a light one of another kind, which keeps its numbers: it shines from the side
+    /// of the origin that it stood on, a light at the origin from above.
+    pub(super) fn light_as(&self, light: Node, kind: &str) -> Vec<Edit> {
+        let edit = |span, text: &str| Edit {
+            span,
+            text: text.to_owned(),
+        };
+        let start = self.span(light).start();
+        let head = Words::new(&self.text, self.span(light)).next();
+        let mut edits = vec![edit(head.unwrap_or(Span::at(start)), kind)];
+        let fields = self.fields(light);
+        let place = fields.first().map_or(&[][..], |placed| &placed.spans);
+        let is_zero = place.iter().all(|span| number(&self.text, *span) == 0.0);
+        if let Some(height) = place.get(1).filter(|_| kind == DIRECTIONAL.name && is_zero) {
+            edits.push(edit(*height, "1"));
+        }
+        edits
     }
 }

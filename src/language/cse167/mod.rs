@@ -132,11 +132,14 @@ impl Language for Cse167 {
         source.check_exchange(nodes)
     }
 
-    fn kinds(_: &Source, _: Node) -> Vec<&'static str> {
-        Vec::new()
+    fn kinds(_: &Source, node: Node) -> Vec<&'static str> {
+        match node {
+            Node::Light(_) => vec![schema::POINT.name, schema::DIRECTIONAL.name],
+            _ => Vec::new(),
+        }
     }
 
-    fn light_as(_: &Source, _: Node, _: &str) -> Vec<Edit> {
-        Vec::new()
+    fn light_as(source: &Source, light: Node, kind: &str) -> Vec<Edit> {
+        source.light_as(light, kind)
     }
 }

@@ -76,6 +76,7 @@ pub fn outlook(source: &Source, scene: &Scene, camera: &Camera, asked: &Renderin
     }
     if asked.integrator() == Integrator::Photon {
         found.extend(view.without_photons());
+        found.extend(view.glowing());
     }
     found
 }
@@ -200,8 +201,38 @@ impl Judge<'_> {
         found.collect()
     }
 
+    /// Materials that glow: they emit no photons.
+    fn glowing(&self) -> Vec<Outlook> {
+        let found = self.materials_in_use().into_iter();
+        let found = found.filter(|(_, material)| material.emission != Rgb::ZERO);
+        let found = found.map(|(node, _)| {
+            let name = self.source.name(node);
+            let message = format!("{name} emits no photons: it glows, but only lights emit them");
+            plain(self.source.span(node), &message, "a point light")
+        });
+        found.collect()
+    }
+
     /// Materials that send back more than they receive.
     fn gains(&self) -> Vec<Outlook> {
+        let found = self.materials_in_use().into_iter();
+        let found = found.filter_map(|(node, material)| {
+            let (gain, words) = gain(material);
+            (1.0 + ROUNDING < gain).then(|| {
+                let message = format!(
+                    "{}: {words} add up to {}: the picture grows brighter with every bounce",
+                    self.source.name(node),
+                    concise((1000.0 * gain).round() / 1000.0)
+                );
+                plain(self.source.span(node), &message, "a sum of at most 1")
+            })
+        });
+        found.collect()
+    }
+
+    /// The materials of objects, each as its node or, if it is not listed, as its first object; none
+    /// where there are too many.
+    fn materials_in_use(&self) -> Vec<(Node, &Material)> {
         let materials = &self.scene.materials;
         if MOST_SEARCHED < materials.iter().count() {
             return Vec::new();
@@ -212,27 +243,17 @@ impl Judge<'_> {
                 user.get_or_insert(number);
             }
         }
-        let found = materials.numbered().filter_map(|(index, material)| {
-            let (gain, words) = gain(material);
-            let user = users[index].filter(|_| 1.0 + ROUNDING < gain)?;
+        let used = materials.numbered().filter_map(|(index, material)| {
+            let user = users[index]?;
             let listed = index < self.source.nodes().materials;
             let node = if listed {
                 Node::Material(index)
             } else {
                 Node::Object(self.source.object(user))
             };
-            let message = format!(
-                "{}: {words} add up to {}: the picture grows brighter with every bounce",
-                self.source.name(node),
-                concise((1000.0 * gain).round() / 1000.0)
-            );
-            Some(plain(
-                self.source.span(node),
-                &message,
-                "a sum of at most 1",
-            ))
+            Some((node, material))
         });
-        found.collect()
+        used.collect()
     }
 
     /// The place of what the text lacks: its view, or its beginning.

@@ -383,6 +383,20 @@ fn lights_without_photons_are_named() {
     check(Language::Xml, &xml("<attenuation value='2'/>"), PHOTON, &[]);
     let radiant = xml("<size value='2'/>").replace("<camera>", "<camera gamma='sRGB'>");
     check(Language::Xml, &radiant, PHOTON, &[]);
+    let test = "camera 0 0 9 0 0 0 0 1 0 45\nattenuation 0 0 1\npoint 0 0 9 1 1 1\nsphere 0 0 0 1\n\
+                quadLight 0 3 0  1 0 0  0 0 1  5 5 5\nemission .1 0 0\nsphere 2 0 0 1\n";
+    let glows = "it glows, but only lights emit them";
+    let of_test = [
+        format!("6:1 material 2 emits no photons: {glows}"),
+        format!("5:1 object 2 (quadLight) emits no photons: {glows}"),
+    ];
+    check(
+        Language::Cse167,
+        test,
+        PHOTON,
+        &of_test.each_ref().map(String::as_str),
+    );
+    check(Language::Cse167, test, PATH, &[]);
 }
 
 #[test]

@@ -165,7 +165,14 @@ impl<'a> Lowering<'a> {
     /// Warns of a camera that a later one replaces, and of its errors.
     fn superseded(&mut self, at: usize) {
         let before = std::mem::take(&mut self.reader.report);
-        self.reader.read(at);
+        let read = self.reader.read(at);
+        if let Some((numbers, read)) = read.as_ref().and_then(|read| Some((read.numbers()?, read)))
+        {
+            let mut view = view::DEFAULT;
+            view[..numbers.len()].copy_from_slice(numbers);
+            let camera = view::VIEW.camera(&view);
+            check(&camera, &camera_spans(&read.spans), &mut self.reader.report);
+        }
         let found = std::mem::replace(&mut self.reader.report, before);
         for diagnostic in found.iter() {
             self.reader.report.warning(|| Diagnostic {
@@ -222,13 +229,7 @@ impl<'a> Lowering<'a> {
             self.view[CAMERA.numbers()..].copy_from_slice(numbers);
         } else {
             self.view[..CAMERA.numbers()].copy_from_slice(numbers);
-            self.camera = Some(CameraSpans {
-                eye: view::VIEW.eye.span(spans),
-                target: view::VIEW.target.span(spans),
-                up: view::VIEW.up.span(spans),
-                whole: spans[0].to(spans[spans.len() - 1]),
-                remedy: "",
-            });
+            self.camera = Some(camera_spans(spans));
         }
     }
 
@@ -336,6 +337,17 @@ impl<'a> Lowering<'a> {
         }
         self.name_materials();
         self.light_up();
+    }
+}
+
+/// The places of a camera with these numbers.
+fn camera_spans(spans: &[Span]) -> CameraSpans {
+    CameraSpans {
+        eye: view::VIEW.eye.span(spans),
+        target: view::VIEW.target.span(spans),
+        up: view::VIEW.up.span(spans),
+        whole: spans[0].to(spans[spans.len() - 1]),
+        remedy: "",
     }
 }
 

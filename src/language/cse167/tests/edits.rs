@@ -330,3 +330,33 @@ fn one_object_gets_a_value_of_its_own() {
         check(own, set(node, key, values), expected);
     }
 }
+
+#[test]
+fn lights_change_their_kind() {
+    let light = Node::Light(1);
+    for (own, kind, expected) in [
+        (
+            "point 1 2 3 1 1 1\n",
+            "directional",
+            "directional 1 2 3 1 1 1\n",
+        ),
+        (
+            "point 0 0 0 1 1 1\n",
+            "directional",
+            "directional 0 1 0 1 1 1\n",
+        ),
+        (
+            "Directional 0 0 1  1 1 1 # sun\n",
+            "point",
+            "point 0 0 1  1 1 1 # sun\n",
+        ),
+    ] {
+        let text = format!("{HEAD}{own}");
+        assert_eq!(read(&text).0.kinds(light), ["point", "directional"]);
+        check(
+            own,
+            |source| source.retyping(light, kind).expect("it can"),
+            expected,
+        );
+    }
+}

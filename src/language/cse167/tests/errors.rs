@@ -81,7 +81,7 @@ const ROWS: &[(&str, &str, &[&str])] = &[
     ("é 1\nsphere 0 0 0 é", HEAD, &["1:1 warning: unknown command `é`: the line is skipped", "2:14 error: sphere radius: `é` is not a number"]),
     ("directional 0 0 1 1 1 1\nsphere 0 0 -5 1", "", &["1:1 warning: no `camera` command"]),
     ("camera 0 0 5 0 0 0 0 1 0 45\ncamera 0 0 9 0 0 0 0 1 0 30\ndirectional 0 0 1 1 1 1\nsphere 0 0 0 1", "", &["1:1 warning: camera: given again below"]),
-    ("camera 0 0 5 0 0 5 0 1 0 45\ncamera 0 0 5 0 0 0 0 1 0 45\ndirectional 0 0 1 1 1 1\nsphere 0 0 0 1", "", &["1:1 warning: camera: given again below"]),
+    ("camera 0 0 5 0 0 5 0 1 0 45\ncamera 0 0 5 0 0 0 0 1 0 45\ndirectional 0 0 1 1 1 1\nsphere 0 0 0 1", "", &["1:1 warning: camera: given again below", "1:8 warning: view target: coincides with the eye"]),
     ("camera 0 0 5 0 0 0 0 1 0 45\ncamera 0 0 5 0 0 0 0 1 0\ndirectional 0 0 1 1 1 1\nsphere 0 0 0 1", "", &["1:1 warning: camera: given again below", "2:1 error: camera: the line ends where fov is expected; 1 more token"]),
     ("camera 0 0 5 0 0 5 0 1 0 45\ndirectional 0 0 1 1 1 1\nsphere 0 0 0 1", "", &["1:8 error: view target: coincides with the eye"]),
     ("camera 0 0 5 0 0 0 0 1 0 0\ndirectional 0 0 1 1 1 1\nsphere 0 0 0 1", "", &["1:26 error: camera fov: must be greater than 0 and less than 180"]),
