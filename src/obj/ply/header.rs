@@ -166,7 +166,7 @@ fn end_of<'t>(file: File<'t>, lines: &Lines<'t>) -> Word<'t> {
     Word {
         text: b"",
         place: Spot::from(Place {
-            line: lines.next.line.saturating_sub(1).max(1),
+            line: lines.line_of(at),
             at,
         }),
     }

@@ -28,6 +28,14 @@ impl<'t> Lines<'t> {
     }
 }
 
+impl Lines<'_> {
+    /// The number of the line that a byte is on, from 1.
+    pub(super) fn line_of(&self, at: usize) -> usize {
+        let before = self.bytes[..at].iter();
+        1 + before.filter(|&&byte| byte == self.end).count()
+    }
+}
+
 impl<'t> Iterator for Lines<'t> {
     type Item = (Place, &'t [u8]);
 
@@ -37,7 +45,7 @@ impl<'t> Iterator for Lines<'t> {
         let length = rest.iter().position(|&byte| byte == self.end);
         let length = length.unwrap_or(rest.len());
         self.next = Place {
-            line: start.line + 1,
+            line: start.line + usize::from(length < rest.len()),
             at: self.bytes.len().min(start.at + length + 1),
         };
         Some((start, rest[..length].trim_ascii_end()))

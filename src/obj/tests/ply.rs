@@ -295,6 +295,14 @@ fn hostile_headers_are_refused_at_their_places() {
         ),
         (b"ply\n".to_vec(), "line 1, column 4: the header has no end"),
         (
+            b"ply\ncomment".to_vec(),
+            "line 2, column 8: the header has no end",
+        ),
+        (
+            b"ply\nformat ascii 1.0\nelement a 1\nproperty int b\nend_header".to_vec(),
+            "line 5, column 11: the file ends in element 0 of 1",
+        ),
+        (
             b"ply\nend_header\n".to_vec(),
             "line 2, column 1: the header does not say its format",
         ),
