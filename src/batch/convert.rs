@@ -1,12 +1,15 @@
 //! Converts a scene to another language.
 
+use std::collections::HashSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::output::Output;
 use super::reading::Loaded;
 use super::{Error, Messages, Reading};
-use language::{Converted, Language};
+use language::{Converted, Language, Source};
+use scene::Meshes;
 use text::{Diagnostic, Findings};
 
 /// A scene to convert.
@@ -39,7 +42,7 @@ fn try_convert(work: &Convert) -> Result<(), Error> {
     let Converted { text, mut losses } = language::convert(&loaded.source, scene, work.to)
         .map_err(|reason| Error::Refused(reason.to_string()))?;
     if let Output::File(path) = &work.output {
-        losses.append(unreachable_files(work, path, &loaded));
+        losses.append(unreachable_files(work, path, &loaded, &text));
     }
     let losses = work.reading.warnings.apply(losses.sorted());
     Messages::Text.all_findings(&loaded.path, loaded.source.text(), &losses);
@@ -55,15 +58,25 @@ fn has_same_bytes(one: &Path, other: &Path) -> bool {
     one.is_some() && one == other
 }
 
-/// Warnings for the files that a scene names, if they are looked for in another folder.
-fn unreachable_files(work: &Convert, path: &Path, loaded: &Loaded) -> Findings {
+/// Warnings for the files that a scene and its new text name, if they are looked for in another folder.
+fn unreachable_files(work: &Convert, path: &Path, loaded: &Loaded, text: &str) -> Findings {
     let mut found = Findings::default();
     let folders = [work.scene.as_path(), path].map(file::directory_of);
     let [old, new] = folders.each_ref().map(|folder| folder.canonicalize().ok());
-    if old == new || work.to == Language::Ray {
+    if old == new {
         return found;
     }
-    for named in loaded.source.files() {
+    let mut converted = Source::new(work.to, Arc::new(text.to_owned()));
+    if converted.lower(&Meshes::default()).is_err() {
+        return found;
+    }
+    let kept: HashSet<_> = converted
+        .files()
+        .into_iter()
+        .map(|named| named.path)
+        .collect();
+    let named = loaded.source.files().into_iter();
+    for named in named.filter(|named| kept.contains(&named.path)) {
         let [old, new] = folders.each_ref().map(|folder| folder.join(&named.path));
         if !file::is_same(&old, &new) && !has_same_bytes(&old, &new) {
             found.warning(|| {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::revision;
-use assets::{Assets, is_mesh};
+use assets::{Assets, Up, is_mesh};
 use compare::{Comparison, SizesDiffer};
 use image_file::Recorded;
 use language::{Language, Source, errors_of_beginning};
@@ -75,12 +75,16 @@ impl Pair {
 }
 
 impl ReferenceSource {
-    /// Reads the reference; the error says why it cannot be read.
-    pub(crate) fn read(&self, assets: &mut Assets) -> Result<ReferenceRead, String> {
+    /// Reads the reference, a mesh with this upward axis; the error says why it cannot be read.
+    pub(crate) fn read(
+        &self,
+        assets: &mut Assets,
+        up: Option<Up>,
+    ) -> Result<ReferenceRead, String> {
         match self {
             Self::File(path) if is_mesh(path) => {
                 file::open(path).map_err(|error| error.to_string())?;
-                let made = assets.scene_of_mesh(path, None);
+                let made = assets.scene_of_mesh(path, up);
                 scene(&made.path, Language::Xml, made.text, assets)
             }
             Self::File(path) => match Language::of_path(path) {

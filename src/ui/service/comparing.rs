@@ -9,18 +9,19 @@ use std::sync::Arc;
 use super::answering::Answering;
 use crate::msg::Msg;
 use crate::reference::{Pair, ReferenceId, ReferenceSource};
-use assets::Assets;
+use assets::{Assets, Up};
 
 /// Starts the thread that reads references, reported by [`Msg::ReferenceRead`]; `send` is called on it.
-/// Pictures and meshes of scenes may be read from `folders` too.
+/// Pictures and meshes of scenes may be read from `folders` too; `up` is the upward axis of a mesh.
 pub(crate) fn references(
     folders: &[PathBuf],
+    up: Option<Up>,
     send: impl Fn(Msg) + Send + 'static,
 ) -> io::Result<Answering<(ReferenceId, ReferenceSource)>> {
     let folders = folders.to_vec();
     Answering::each("references", "reads references", move |(id, source)| {
         let source: ReferenceSource = source;
-        let read = source.read(&mut Assets::new(&folders));
+        let read = source.read(&mut Assets::new(&folders), up);
         send(Msg::ReferenceRead(id, read));
     })
 }

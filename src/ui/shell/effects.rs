@@ -98,7 +98,7 @@ impl Runtime {
             recent: remembering::start(sending(&sender))?,
             assets: service::assets(&options.assets, options.watching(), sending(&sender))?,
             tracks: service::tracks(options.watching(), sending(&sender))?,
-            references: service::references(&options.assets, sending(&sender))?,
+            references: service::references(&options.assets, options.up, sending(&sender))?,
             figures: service::figures(sending(&sender))?,
             history_scenes: service::history_scenes(&options.assets, sending(&sender))?,
             explanations: service::explanations(sending(&sender))?,

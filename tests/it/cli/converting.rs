@@ -136,6 +136,19 @@ fn files_named_from_another_folder_are_pointed_out() {
     assert!(!place.at("new/map.xml").exists());
     let (_, said, code) = run(&place, "map.dat -o new/map.xml");
     assert!(code == Some(0) && said.contains(warning), "{said}");
+    place.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    for (scene, there, is_named) in [
+        ("a.obj", "new/a.xml", true),
+        ("a.obj", "new/a.test", false),
+        ("map.dat", "new/map.test", false),
+        ("map.dat", "new/map.ray", false),
+    ] {
+        let (_, said, code) = run(&place, &format!("{scene} -o {there}"));
+        assert!(
+            code == Some(0) && said.contains(warning) == is_named,
+            "{there}: {said}"
+        );
+    }
     place.write("new/map.ppm", b"P6 1 1 255 abc");
     for there in ["new/map.xml", "map.xml"] {
         let (_, said, _) = run(&place, &format!("map.dat -o {there}"));
