@@ -263,6 +263,13 @@ pub(super) fn rounded(old: f64, new: f64, decimals: usize) -> f64 {
     text::rounded(new, decimals)
 }
 
+/// The factor of a uniform scaling; `None` if the matrix is anything more.
+pub(super) fn scaling([x, y, z]: [DVec3; 3]) -> Option<f64> {
+    let size = x.x;
+    let is_all = x == size * DVec3::X && y == size * DVec3::Y && z == size * DVec3::Z;
+    (is_all && 0.0 < size && size.is_finite()).then_some(size)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -13,6 +13,7 @@ use crate::cse167::schema::{
 };
 use crate::engine::places::Place;
 use crate::engine::reader::Reading;
+use crate::form::scaling;
 use crate::node::Node;
 use crate::report::quoted;
 use crate::schema::{Category, Range, Record};
@@ -154,7 +155,8 @@ impl Lowering<'_> {
         let transform = self.state.transform;
         let columns = [transform.x_axis, transform.y_axis, transform.z_axis];
         let origin = transform.transform_point3(centre);
-        if columns == DVec3::AXES {
+        let scaled = scaling(columns).map(|factor| factor * radius);
+        if let Some(radius) = scaled.filter(|radius| Range::Size.contains(*radius)) {
             return Some(Shape::Solid(Solid::Sphere(Sphere {
                 centre: origin,
                 radius,

@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec3};
 
 use super::Lowering;
-use crate::form::rotation;
+use crate::form::{rotation, scaling};
 use crate::report::quoted;
 use crate::schema::{Range, SIZES};
 use crate::xml::origins::Role;
@@ -194,11 +194,4 @@ impl Lowering<'_> {
         }
         found
     }
-}
-
-/// The factor of a uniform scaling; `None` if the matrix is anything more.
-fn scaling([x, y, z]: [DVec3; 3]) -> Option<f64> {
-    let size = x.x;
-    let is_all = x == size * DVec3::X && y == size * DVec3::Y && z == size * DVec3::Z;
-    (is_all && 0.0 < size && size.is_finite()).then_some(size)
 }

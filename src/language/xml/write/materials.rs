@@ -55,16 +55,26 @@ const LINES: Loss = Loss {
 
 /// Whether ambient light is written as emission: if materials reflect it by colours of their own.
 pub(super) fn is_baked(scene: &Scene, losses: &mut Losses<'_>) -> bool {
-    let mut is_baked = false;
-    let is_lit = scene.ambient_light() != Rgb::ZERO;
-    for (index, material) in (0..).zip(scene.materials.iter()) {
-        let has_own = material
-            .ambient
-            .is_some_and(|ambient| ambient != material.diffuse);
-        if is_lit && has_own && losses.is_used(index as usize) {
-            losses.add(Of::Material(index), &AMBIENT);
-            is_baked = true;
-        }
+    let light = scene.ambient_light();
+    if light == Rgb::ZERO {
+        return false;
+    }
+    let materials = (0..).zip(scene.materials.iter());
+    let used: Vec<_> = materials
+        .filter(|(index, _)| losses.is_used(*index as usize))
+        .collect();
+    let reflected = |of: &Material| light * of.ambient.unwrap_or(of.diffuse);
+    let is_emission = used
+        .iter()
+        .any(|(_, material)| reflected(material) != Rgb::ZERO);
+    let has_own = |of: &Material| of.ambient.is_some_and(|ambient| ambient != of.diffuse);
+    let mut own = used
+        .iter()
+        .filter(|(_, material)| has_own(material))
+        .peekable();
+    let is_baked = own.peek().is_some();
+    for (index, _) in own.filter(|_| is_emission) {
+        losses.add(Of::Material(*index), &AMBIENT);
     }
     is_baked
 }

@@ -1,6 +1,8 @@
 //! Every sample scene in the other two languages: where nothing is reported lost, the pictures are
 //! the same.
 
+mod random;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, mpsc};
