@@ -82,6 +82,12 @@ impl FieldSpans {
         self.implicit.as_ref()?.defaults.get(component)?.as_deref()
     }
 
+    /// Whether the components that the text omits have the values that hold around the node.
+    pub fn is_inherited(&self) -> bool {
+        let implicit = self.implicit.as_ref();
+        implicit.is_some_and(|implicit| implicit.limit.is_some())
+    }
+
     /// Whether the text states any of the components.
     pub fn is_explicit(&self) -> bool {
         (0..self.spans.len()).any(|component| self.default_of(component).is_none())

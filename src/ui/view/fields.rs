@@ -128,7 +128,7 @@ fn field_line(
     for (component, ((literal, source), column)) in literals.zip(&columns).enumerate() {
         let style = match source {
             Provenance::Text => Style::new(),
-            Provenance::Default => theme::DIM,
+            Provenance::Default | Provenance::Inherited => theme::DIM,
             Provenance::WorkingView => theme::WARNING,
         };
         let mut row = Row::new(buffer, *column, 0);
@@ -136,8 +136,13 @@ fn field_line(
         let room = row.room().saturating_sub(1);
         let mark = (cursor == Some(component)).then_some(theme::CURSOR);
         row.put_in(literal, room, style.patch(mark.unwrap_or_default()));
-        if *source == Provenance::Default && "  (default)".len() < row.room() {
-            row.put("  (default)", style);
+        let note = match source {
+            Provenance::Default => "  (default)",
+            Provenance::Inherited => "  (inherited)",
+            Provenance::Text | Provenance::WorkingView => "",
+        };
+        if note.len() < row.room() {
+            row.put(note, style);
         }
     }
     let current = cursor.and_then(|at| Some((at, columns.get(at)?)));
@@ -239,6 +244,9 @@ fn explain(shared: &Shared, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     say(field.field.doc, theme::DIM);
     match field.sources.get(shared.cursor.component) {
         Some(Provenance::Default) => say("Not in the text: this is the default.", theme::DIM),
+        Some(Provenance::Inherited) => {
+            say("A change states it for this object alone.", theme::DIM);
+        }
         Some(Provenance::WorkingView) => {
             say("The working view differs from the text.", theme::WARNING);
         }

@@ -90,6 +90,16 @@ fn the_tutorial_builds_the_default_scene() {
     );
 }
 
+/// Lights, a mesh, values of their own, motions, copies, a name and a view, without an editor.
+#[test]
+fn twenty_steps_build_a_scene_of_commands() {
+    let place = Place::new();
+    place.write("steps.keys", include_str!("evening.keys"));
+    place.run("evening.test --keys steps.keys --screen 112x40");
+    let evening = String::from_utf8(place.read("evening.test")).expect("text");
+    assert_eq!(evening, include_str!("evening.test"));
+}
+
 #[test]
 fn a_script_sees_no_scenes_of_other_runs() {
     let place = Place::new();

@@ -51,6 +51,7 @@ impl Shared {
             return Some(row(literals, Provenance::Default));
         }
         let source = |component| match placed.default_of(component) {
+            Some(_) if placed.is_inherited() => Provenance::Inherited,
             Some(_) => Provenance::Default,
             None => Provenance::Text,
         };
@@ -93,6 +94,8 @@ pub enum Provenance {
     Text,
     /// It is a default, absent from the text.
     Default,
+    /// The text states it for several objects, or for none, and could state it for this one.
+    Inherited,
     /// It is from the working view, which differs from the text here.
     WorkingView,
 }
