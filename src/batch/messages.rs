@@ -32,7 +32,7 @@ impl Messages {
     /// Prints the findings that were kept, and the number of further ones.
     pub(super) fn all_findings(self, path: &Path, text: &str, findings: &Findings) {
         self.findings(path, text, findings);
-        let more = findings.errors() + findings.warnings() - findings.len();
+        let more = findings.count() - findings.len();
         if 0 < more {
             self.note(&format!("{} not shown", counted(more, "more finding")));
         }

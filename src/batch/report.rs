@@ -72,6 +72,7 @@ fn one(name: &str, text: &str, diagnostic: &Diagnostic, style: Style) -> String 
     let (level, colour) = match diagnostic.severity {
         Severity::Error => ("error", ERROR),
         Severity::Warning => ("warning", WARNING),
+        Severity::Note => ("note", TITLE),
     };
     let place = visible(file.unwrap_or(name));
     let title = format!(
@@ -118,6 +119,7 @@ pub(super) fn object(name: &str, text: &str, diagnostic: &Diagnostic) -> Value {
         "event": match diagnostic.severity {
             Severity::Error => "error",
             Severity::Warning => "warning",
+            Severity::Note => "note",
         },
         "message": visible(&diagnostic.message),
         "file": visible(file.unwrap_or(name)),

@@ -1,10 +1,12 @@
-//! Errors and warnings at spans of a text.
+//! Errors, warnings and notes at spans of a text.
 
 use super::{Position, Span};
 
 /// The severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
+    /// The text is valid and common, but its author may not know what it means here.
+    Note,
     /// The text is valid, but perhaps not what was intended.
     Warning,
     /// The text is invalid; nothing is rendered.
@@ -134,6 +136,14 @@ impl Diagnostic {
     pub fn warning(span: Span, message: impl Into<String>, expected: impl Into<String>) -> Self {
         Self {
             severity: Severity::Warning,
+            ..Self::error(span, message, expected)
+        }
+    }
+
+    /// A note at `span`.
+    pub fn note(span: Span, message: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self {
+            severity: Severity::Note,
             ..Self::error(span, message, expected)
         }
     }

@@ -15,6 +15,7 @@ pub struct Findings {
     kept: Vec<Diagnostic>,
     errors: usize,
     warnings: usize,
+    notes: usize,
 }
 
 impl Findings {
@@ -34,26 +35,37 @@ impl Findings {
         }
     }
 
+    /// Adds a note; `make` is called only if it is kept.
+    pub fn note(&mut self, make: impl FnOnce() -> Diagnostic) {
+        self.notes += 1;
+        if self.notes <= LIMIT {
+            self.kept.push(make());
+        }
+    }
+
     /// Appends later findings, as if added one by one.
     pub fn append(&mut self, later: Self) {
-        let more = (later.errors, later.warnings);
+        let more = [later.errors, later.warnings, later.notes];
         for diagnostic in later.kept {
-            if diagnostic.is_error() {
-                self.error(|| diagnostic);
-            } else {
-                self.warning(|| diagnostic);
+            match diagnostic.severity {
+                Severity::Error => self.error(|| diagnostic),
+                Severity::Warning => self.warning(|| diagnostic),
+                Severity::Note => self.note(|| diagnostic),
             }
         }
-        let dropped = |count: usize| count.saturating_sub(LIMIT);
-        self.errors += dropped(more.0);
-        self.warnings += dropped(more.1);
+        let [errors, warnings, notes] = more.map(|count| count.saturating_sub(LIMIT));
+        self.errors += errors;
+        self.warnings += warnings;
+        self.notes += notes;
     }
 
     /// Turns every warning into an error.
     #[must_use]
     pub fn strict(mut self) -> Self {
         for diagnostic in &mut self.kept {
-            diagnostic.severity = Severity::Error;
+            if diagnostic.severity == Severity::Warning {
+                diagnostic.severity = Severity::Error;
+            }
         }
         self.errors += std::mem::take(&mut self.warnings);
         self
@@ -79,6 +91,16 @@ impl Findings {
     /// The number of warnings, kept or not.
     pub fn warnings(&self) -> usize {
         self.warnings
+    }
+
+    /// The number of notes, kept or not.
+    pub fn notes(&self) -> usize {
+        self.notes
+    }
+
+    /// The number of findings, kept or not.
+    pub fn count(&self) -> usize {
+        self.errors + self.warnings + self.notes
     }
 
     /// The first error kept.
@@ -124,13 +146,21 @@ mod tests {
         for at in (0..1000).rev() {
             found.error(|| Diagnostic::error(Span::at(at), "e", ""));
             found.warning(|| Diagnostic::warning(Span::at(at), "w", ""));
+            found.note(|| Diagnostic::note(Span::at(at), "n", ""));
         }
-        let found = found.sorted();
-        assert_eq!((found.errors(), found.warnings()), (1000, 1000));
-        assert_eq!(found.len(), 200);
-        assert_eq!(found[0].span, Span::at(900));
-        let found = found.strict();
-        assert_eq!((found.errors(), found.warnings()), (2000, 0));
-        assert!(found.len() == 200 && found.iter().all(Diagnostic::is_error));
+        let mut all = Findings::default();
+        all.append(found.sorted());
+        assert_eq!(
+            (all.errors(), all.warnings(), all.notes()),
+            (1000, 1000, 1000)
+        );
+        assert_eq!((all.len(), all.count()), (300, 3000));
+        assert_eq!(all[0].span, Span::at(900));
+        let strict = all.strict();
+        assert_eq!(
+            (strict.errors(), strict.warnings(), strict.notes()),
+            (2000, 0, 1000)
+        );
+        assert_eq!(strict.iter().filter(|found| found.is_error()).count(), 200);
     }
 }

@@ -83,6 +83,7 @@ pub(crate) const fn chip(style: Style) -> Style {
 pub(crate) const fn severity(severity: Option<Severity>) -> Style {
     match severity {
         None => GOOD,
+        Some(Severity::Note) => ACCENT,
         Some(Severity::Warning) => WARNING,
         Some(Severity::Error) => ERROR,
     }

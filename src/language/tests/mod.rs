@@ -16,7 +16,7 @@ use super::convert::without_gamma;
 use super::losses::Losses;
 use super::{Language, Lowered, Source, verify_conversion};
 use scene::{Meshes, Scene};
-use text::{Diagnostic, Findings, Position, Span};
+use text::{Diagnostic, Findings, Position, Severity, Span};
 
 /// Parses and lowers a text.
 pub(super) fn read_as(language: Language, text: &str, meshes: &Meshes) -> (Source, Lowered) {
@@ -29,10 +29,10 @@ pub(super) fn read_as(language: Language, text: &str, meshes: &Meshes) -> (Sourc
 pub(super) fn shown(text: &str, lowered: &Lowered) -> Vec<String> {
     let line = |diagnostic: &Diagnostic| {
         let Position { line, column } = Position::of(text, diagnostic.span.start());
-        let severity = if diagnostic.is_error() {
-            "error"
-        } else {
-            "warning"
+        let severity = match diagnostic.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
         };
         format!("{line}:{column} {severity}: {}", diagnostic.message)
     };

@@ -39,11 +39,15 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
 
 fn heading(shared: &Shared) -> String {
     let diagnostics = shared.wrong().findings;
-    let (errors, warnings) = (diagnostics.errors(), diagnostics.warnings());
+    let (errors, warnings, notes) = (
+        diagnostics.errors(),
+        diagnostics.warnings(),
+        diagnostics.notes(),
+    );
     if shared.is_disk_wrong() {
         return format!("{} in the file on disk", counted(errors, "error"));
     }
-    let kinds = [(errors, "error"), (warnings, "warning")];
+    let kinds = [(errors, "error"), (warnings, "warning"), (notes, "note")];
     let mut parts: Vec<_> = kinds
         .into_iter()
         .filter(|&(count, _)| 0 < count)
@@ -52,7 +56,7 @@ fn heading(shared: &Shared) -> String {
     if parts.is_empty() {
         parts.push("no errors or warnings".to_owned());
     }
-    if diagnostics.len() < errors + warnings {
+    if diagnostics.len() < diagnostics.count() {
         parts.push(format!("{} listed", diagnostics.len()));
     }
     parts.join(", ")

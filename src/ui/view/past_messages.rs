@@ -39,6 +39,7 @@ const SIGN: usize = 9;
 fn sign(message: &Message) -> &'static str {
     match message.severity {
         None => "info",
+        Some(Severity::Note) => "note",
         Some(Severity::Warning) => "warning",
         Some(Severity::Error) => "error",
     }

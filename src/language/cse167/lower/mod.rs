@@ -23,7 +23,7 @@ use objects::Meshes;
 pub(super) use objects::Placed;
 use scene::{Integrator, Light, MAX_DEPTH, Object, Rendering, Rgb, Scene, Setting};
 use state::{Materials, State};
-use text::{Diagnostic, Findings, Span, is_integer};
+use text::{Diagnostic, Findings, Severity, Span, is_integer};
 
 /// The depths of Whitted ray tracing and of paths where the text states none.
 const DEPTHS: [u32; 2] = [5, ENDLESS];
@@ -176,7 +176,7 @@ impl<'a> Lowering<'a> {
         let found = std::mem::replace(&mut self.reader.report, before);
         for diagnostic in found.iter() {
             self.reader.report.warning(|| Diagnostic {
-                severity: text::Severity::Warning,
+                severity: Severity::Warning,
                 ..diagnostic.clone()
             });
         }
@@ -288,9 +288,9 @@ impl<'a> Lowering<'a> {
             match range(-1.0, MAX_DEPTH) {
                 Some(bad) => self.reader.report.error(|| bad),
                 None if number < 0.0 => {
-                    self.reader.report.warning(|| {
+                    self.reader.report.note(|| {
                         let message = format!("maxdepth: -1 is read as {ENDLESS}");
-                        Diagnostic::warning(span, message, "a whole number, 0 or more")
+                        Diagnostic::note(span, message, "a whole number, 0 or more")
                     });
                     self.rendering.depth = Some(ENDLESS);
                 }
@@ -313,8 +313,8 @@ impl<'a> Lowering<'a> {
             self.rendering.default_depths = Some([whitted, cut]);
         }
         if let Some(&(open, _)) = self.state.pushed.first() {
-            self.reader.report.warning(|| {
-                Diagnostic::warning(
+            self.reader.report.note(|| {
+                Diagnostic::note(
                     open,
                     "pushTransform: is never undone by popTransform",
                     "a matching popTransform",
@@ -322,10 +322,10 @@ impl<'a> Lowering<'a> {
             });
         }
         if let Some(first) = self.read_over {
-            self.reader.report.warning(|| {
+            self.reader.report.note(|| {
                 let word = first.of(self.reader.text);
                 let message = format!("{word}: ignored, like all commands for sampling");
-                Diagnostic::warning(first, message, "a command that affects the picture")
+                Diagnostic::note(first, message, "a command that affects the picture")
                     .with_hint("the renderer chooses its samples itself")
             });
         }
