@@ -4,15 +4,12 @@ use std::borrow::Cow;
 use std::sync::LazyLock;
 
 use super::field_spans::{FieldSpans, Implicit, ImplicitAttribute, Insertion, Piece, Wanted};
-use super::report::{did_you_mean, no_number, number, quoted};
+use super::report::{did_you_mean, number_in_comment, quoted};
 use super::schema::{Field, Kind, Range};
-use super::view::line_from;
+use super::view::{beginning, line_ending, line_from};
 use super::words::Words;
 use scene::{RenderKey, Rendering, Values};
-use text::{
-    Diagnostic, Edit, Findings, SKIPPED, Severity, Span, is_integer, line_end, nearest_word,
-    next_line, parse_number,
-};
+use text::{Diagnostic, Edit, Findings, SKIPPED, Span, line_end, nearest_word, next_line};
 
 /// The settings that texts may state, as fields in the order of the interface.
 static FIELDS: LazyLock<Vec<(RenderKey, Field)>> =
@@ -154,9 +151,33 @@ impl Around {
     }
 }
 
+/// Reads the first of these comments that states settings, each given with what follows its key. Warns
+/// of those after it.
+pub(super) fn first_comment(
+    text: &str,
+    comments: impl Iterator<Item = (Span, Span)>,
+    report: &mut Findings,
+) -> Option<RenderPlace> {
+    let mut first = None;
+    for (comment, body) in comments {
+        let mut findings = Findings::default();
+        let place = read_comment(text, comment, body, &mut findings);
+        if first.is_some() && place.is_some() {
+            report.warning(|| {
+                let message = "render: already given, these settings are ignored";
+                Diagnostic::warning(comment, message, "render settings once")
+            });
+            continue;
+        }
+        report.append(findings);
+        first = first.or(place);
+    }
+    first
+}
+
 /// Reads the settings of a comment from its words; `None` if the first is no key: then it is only a
 /// comment, with a warning if that looks like a misspelt key.
-pub(super) fn read_comment(
+fn read_comment(
     text: &str,
     comment: Span,
     body: Span,
@@ -218,12 +239,6 @@ fn misspelt(text: &str, first: Span, second: Option<Span>) -> Option<Diagnostic>
     Some(warning.with_hint(format!("did you mean `{meant} VALUE`?")))
 }
 
-/// The warning for render settings after the first.
-pub(super) fn given_again(span: Span) -> Diagnostic {
-    let message = "render: already given, these settings are ignored";
-    Diagnostic::warning(span, message, "render settings once")
-}
-
 fn keys() -> impl Iterator<Item = &'static str> {
     RenderKey::of_text().map(RenderKey::name)
 }
@@ -254,20 +269,7 @@ fn value(field: &Field, span: Span, word: &str, report: &mut Findings) -> Result
         let (place, _) = field.chosen(word).ok_or_else(unknown)?;
         return Ok(place as f64);
     }
-    let is_count = matches!(field.allowed, Range::Whole(..));
-    let read = if is_count {
-        parse_number(word)
-    } else {
-        number(span, word, report, what)
-    };
-    let expected = field.allowed.words();
-    let value =
-        read.map_err(|error| no_number(Severity::Warning, span, word, &what(), &expected, error))?;
-    if !field.allowed.contains(value) || (is_count && !is_integer(word)) {
-        let message = format!("{}: must be {}", what(), field.allowed.limits());
-        return Err(Diagnostic::warning(span, message, expected));
-    }
-    Ok(value)
+    number_in_comment(field, span, word, report, what)
 }
 
 /// What a text can state of the values that are asked for, as it spells them.
@@ -321,12 +323,11 @@ pub(super) fn fields(
 }
 
 /// Where further settings are inserted: at the end of the comment, or in a new one, the first line of
-/// the text at `start`, which begins with `opening`.
+/// the text, which begins with `opening`.
 pub(super) fn insertion(
+    text: &str,
     place: Option<&RenderPlace>,
-    start: usize,
     opening: &'static str,
-    line_ending: &'static str,
 ) -> Insertion {
     match place {
         Some(place) => Insertion {
@@ -336,10 +337,10 @@ pub(super) fn insertion(
             after: Vec::new(),
         },
         None => Insertion {
-            span: Span::at(start),
+            span: Span::at(beginning(text)),
             before: vec![Piece::Literal(opening)],
             between: Vec::new(),
-            after: vec![Piece::Literal(line_ending)],
+            after: vec![Piece::Literal(line_ending(text))],
         },
     }
 }

@@ -2,9 +2,10 @@
 
 use std::fmt;
 
-use super::schema::{Field, Range};
+use super::schema::Field;
 use text::{
-    Diagnostic, Findings, NumberError, Severity, Span, concise, parse_number, without_suffix,
+    Diagnostic, Findings, NumberError, Severity, Span, concise, is_integer, parse_number,
+    without_suffix,
 };
 
 /// A token for display in messages: in backticks, truncated, unprintable characters escaped.
@@ -52,19 +53,54 @@ pub(super) fn number_of(
     report: &mut Findings,
     what: impl Fn() -> String,
 ) -> f64 {
-    let is_whole = field.kind.is_size() || field.allowed == Range::Identity;
-    let read = if is_whole {
-        parse_number(token)
-    } else {
-        number(span, token, report, &what)
-    };
-    read.unwrap_or_else(|error| {
+    parsed(field, span, token, report, &what).unwrap_or_else(|error| {
         report.error(|| {
             let expected = field.allowed.words();
             no_number(Severity::Error, span, token, &what(), &expected, error)
         });
         f64::NAN
     })
+}
+
+/// Reads a number of a field in a comment, where what is wrong with it is a warning for the text.
+/// `what` names the number.
+pub(super) fn number_in_comment(
+    field: &Field,
+    span: Span,
+    token: &str,
+    report: &mut Findings,
+    what: impl Fn() -> String,
+) -> Result<f64, Diagnostic> {
+    let expected = field.allowed.words();
+    let value = parsed(field, span, token, report, &what)
+        .map_err(|error| no_number(Severity::Warning, span, token, &what(), &expected, error))?;
+    let is_too_large = field.kind.is_size() && f64::from(u32::MAX) < value;
+    let is_fraction = field.allowed.is_whole() && !is_integer(token);
+    if field.allowed.contains(value) && !is_too_large && !is_fraction {
+        return Ok(value);
+    }
+    let limits = if is_too_large {
+        format!("{} at most", u32::MAX)
+    } else {
+        field.allowed.limits()
+    };
+    let message = format!("{}: must be {limits}", what());
+    Err(Diagnostic::warning(span, message, expected))
+}
+
+/// Parses a number of a field; only one that may have a fraction may have a suffix.
+fn parsed(
+    field: &Field,
+    span: Span,
+    token: &str,
+    report: &mut Findings,
+    what: impl FnOnce() -> String,
+) -> Result<f64, NumberError> {
+    if field.allowed.is_whole() {
+        parse_number(token)
+    } else {
+        number(span, token, report, what)
+    }
 }
 
 /// The diagnostic for a number outside the usual range of its field: an error if it is not even

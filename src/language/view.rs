@@ -1,7 +1,8 @@
 //! Cameras in a language: the literals of the view's fields.
 
+use super::field_spans::FieldSpans;
 use super::schema::{Field, Kind};
-use text::{line_end, line_start, next_line, parse_number};
+use text::{Edit, line_end, line_start, next_line, parse_number, spell_like};
 
 /// The numbers of the view's fields, one per component; for a choice, the index of the word.
 pub(super) type Numbers = Vec<f64>;
@@ -52,6 +53,26 @@ pub(super) fn take<'n>(numbers: &mut &'n [f64], field: &Field) -> &'n [f64] {
     let (taken, rest) = numbers.split_at(field.kind.components());
     *numbers = rest;
     taken
+}
+
+/// Returns the edits that change the numbers of a view from `old` to `new` where the text states them,
+/// spelled like the old ones. `fields` are those of the view.
+pub(super) fn respelled(text: &str, fields: &[FieldSpans], [old, new]: [&[f64]; 2]) -> Vec<Edit> {
+    let (mut old, mut new) = (old, new);
+    let mut edits = Vec::new();
+    for FieldSpans { field, spans, .. } in fields {
+        let numbers = take(&mut old, field).iter().zip(take(&mut new, field));
+        let changed = spans.iter().zip(numbers);
+        let changed = changed.filter(|(_, (old, new))| old != new);
+        edits.extend(changed.map(|(&span, (_, &number))| Edit {
+            span,
+            text: match field.kind {
+                Kind::Choice(_) => literal(field, number),
+                _ => spell_like(span.of(text), number + 0.0),
+            },
+        }));
+    }
+    edits
 }
 
 /// Formats a number of a field in default style, for a place without a number.

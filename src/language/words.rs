@@ -68,6 +68,17 @@ pub(super) fn may_begin_word(first: u8) -> bool {
     first.is_ascii_alphabetic() || !first.is_ascii()
 }
 
+/// The part of a comment after its mark, white space and a key; `None` for other comments.
+pub(super) fn after_key(text: &str, comment: Span, mark: &str, key: &str) -> Option<Span> {
+    let bytes = comment.of(text).as_bytes();
+    let start = skip_white_space(
+        bytes,
+        bytes.starts_with(mark.as_bytes()).then_some(mark.len())?,
+    );
+    let body = bytes[start..].strip_prefix(key.as_bytes())?;
+    Some(Span::new(comment.end() - body.len(), comment.end()))
+}
+
 /// The span without trailing white space.
 pub(super) fn trim_end(text: &str, span: Span) -> Span {
     let mut kept = span.of(text).as_bytes();

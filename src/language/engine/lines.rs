@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 use std::ops::Range;
 
 use super::Language;
-use crate::words::{Words, skip_white_space, trim_end};
+use crate::words::{Words, after_key, skip_white_space, trim_end};
 use crate::written::Parse;
 use text::{Span, line_end};
 
@@ -95,10 +95,7 @@ pub(super) fn is_comment<L: Language>(line: &str) -> bool {
 
 /// The part of a comment after `render:`; `None` for other comments.
 pub(super) fn render_comment(text: &str, line: Span) -> Option<Span> {
-    let bytes = line.of(text).as_bytes();
-    let start = skip_white_space(bytes, bytes.strip_prefix(b"#").map(|_| 1)?);
-    let body = bytes[start..].strip_prefix(b"render:")?;
-    Some(Span::new(line.end() - body.len(), line.end()))
+    after_key(text, line, "#", "render:")
 }
 
 /// The lines of a text that are not blank, without surrounding white space.

@@ -16,7 +16,7 @@ use super::wording::{
 use crate::node::Node;
 use crate::record;
 use crate::record::what;
-use crate::rendering::{given_again, read_comment};
+use crate::rendering::first_comment;
 use crate::report::{Name, number_of, quoted};
 use crate::schema::{Category, Field, Kind, Makes, Range, Record, Repeat, Slot, fields};
 use crate::words::Words;
@@ -103,19 +103,9 @@ impl<'a, L: Language> Reader<'a, L> {
 
     /// Reads the first comment with render settings; warns of those after it.
     pub(crate) fn settings(&mut self) {
-        for &line in &self.lines.renders {
-            let Some(body) = render_comment(self.text, line) else {
-                continue;
-            };
-            let mut findings = Findings::default();
-            let place = read_comment(self.text, line, body, &mut findings);
-            if place.is_some() && self.places.settings.is_some() {
-                self.report.warning(|| given_again(line));
-                continue;
-            }
-            self.report.append(findings);
-            self.places.settings = self.places.settings.or(place);
-        }
+        let comments = self.lines.renders.iter();
+        let comments = comments.filter_map(|&line| Some((line, render_comment(self.text, line)?)));
+        self.places.settings = first_comment(self.text, comments, &mut self.report);
     }
 
     /// Reads and checks a record and notes its place. `None` if it is of no known kind, or dropped

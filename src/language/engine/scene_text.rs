@@ -12,7 +12,7 @@ use crate::memory_estimate::scene_fits;
 use crate::node::{FileKind, object_at, place_of};
 use crate::rendering::{self, Around};
 use crate::schema::{Category, Field, Kind, Makes, Record};
-use crate::view::{Numbers, beginning, line_ending};
+use crate::view::Numbers;
 use crate::{FieldSpans, Lowered, NamedFile, Node, Nodes, SceneText, Visibility};
 use geometry::{Affine, Shape};
 use memory::OutOfMemory;
@@ -70,8 +70,7 @@ where
         match node {
             Node::View => self.view_places(),
             Node::Render => {
-                let (start, ending) = (beginning(&self.text), line_ending(&self.text));
-                let insertion = rendering::insertion(settings, start, "# render:", ending);
+                let insertion = rendering::insertion(&self.text, settings, "# render:");
                 rendering::fields(settings, &L::defaults(&self.origins.own), &insertion, None)
             }
             _ => {

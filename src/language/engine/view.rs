@@ -2,10 +2,10 @@
 
 use super::{Language, Source};
 use crate::field_spans::FieldSpans;
-use crate::schema::{Field, Kind, Record};
-use crate::view::{beginning, line_ending, literal, take};
+use crate::schema::Record;
+use crate::view::{beginning, line_ending, literal, respelled, take};
 use scene::Camera;
-use text::{Edit, Span, spell_like};
+use text::{Edit, Span};
 
 impl<L: Language> Source<L> {
     /// The records of the view with their indices, if the text has them.
@@ -35,24 +35,15 @@ impl<L: Language> Source<L> {
     pub(super) fn camera_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit> {
         let text = &*self.text;
         let [old, new] = [before, camera].map(|camera| L::view_numbers(self, camera));
-        let mut edits = Vec::new();
+        let mut edits = respelled(text, &self.view_places(), [&old, &new]);
         let mut missing = String::new();
         let (mut old, mut new) = (&old[..], &new[..]);
         for (record, at) in self.view() {
             let (own, behind) = old.split_at(record.numbers());
             let (changed, rest) = new.split_at(record.numbers());
             (old, new) = (behind, rest);
-            if let Some(at) = at {
-                let fields = record.fields();
-                let fields = fields.flat_map(|at| std::iter::repeat_n(at, at.kind.components()));
-                let spans = self.tree.tokens(text, at).skip(record.heads.len());
-                let numbers = fields.zip(spans).zip(own.iter().zip(changed));
-                let changed = numbers.filter(|(_, (old, new))| old != new);
-                edits.extend(changed.map(|((field, span), (_, &number))| Edit {
-                    span,
-                    text: respelled(span.of(text), field, number),
-                }));
-            } else if own != changed || (L::follows_lens(record) && before.lens != camera.lens) {
+            let follows = L::follows_lens(record) && before.lens != camera.lens;
+            if at.is_none() && (own != changed || follows) {
                 missing.push_str(&spelled(record, changed));
                 missing.push_str(line_ending(text));
             }
@@ -65,14 +56,6 @@ impl<L: Language> Source<L> {
         }
         Edit::sort(&mut edits);
         edits
-    }
-}
-
-/// Formats a number in the style of the literal it replaces, if that is a number.
-fn respelled(old: &str, field: &Field, number: f64) -> String {
-    match field.kind {
-        Kind::Choice(_) => literal(field, number),
-        _ => spell_like(old, number + 0.0),
     }
 }
 

@@ -6,7 +6,7 @@ use super::blocks;
 use super::origins::{ObjectPlace, Origins};
 use super::reader::{Reader, is_word};
 use super::tree::Tree;
-use super::view_comment::{ViewComment, camera, find, find_rendering};
+use super::view_comment::{ViewComment, find, find_rendering};
 use crate::Lowered;
 use crate::rendering::RenderPlace;
 use scene::{Materials, Objects, Scene, Setting, bounds};
@@ -89,7 +89,7 @@ pub(super) struct ObjectsRead {
 /// text mean.
 pub(super) fn joined(
     tree: &Tree,
-    (view, render): (Option<ViewComment>, Option<RenderPlace>),
+    (view, render): (ViewComment, Option<RenderPlace>),
     (mut reader, count): (Reader<'_>, Span),
     read: ObjectsRead,
 ) -> (Origins, Lowered) {
@@ -98,16 +98,15 @@ pub(super) fn joined(
         objects,
         materials,
     } = read;
-    reader.origins.view = view.as_ref().map(ViewComment::place);
+    reader.origins.view = view;
     reader.origins.render = render;
     reader.origins.objects = places;
     reader.origins.tokens = tree.tokens.len();
     // A view with both eye and target can be checked even if not all objects are known.
-    let judged =
-        reader.report.errors() == 0 || view.as_ref().is_some_and(ViewComment::has_eye_and_target);
+    let judged = reader.report.errors() == 0 || view.has_eye_and_target();
     let camera = judged.then(|| {
         let bounds = || bounds(objects.iter());
-        camera(view.as_ref(), bounds, count, &mut reader.report)
+        view.camera(bounds, count, &mut reader.report)
     });
     let camera = camera.filter(|_| reader.report.errors() == 0);
     let lowered = Lowered {

@@ -5,21 +5,20 @@
 
 use std::sync::Arc;
 
-use super::schema::{LIGHT, ShapeKind, VIEW};
+use super::schema::{LIGHT, ShapeKind};
 use super::tree::Tree;
+use super::view_comment::ViewComment;
 use crate::field_spans::FieldSpans;
 use crate::node::Node;
-use crate::rendering::{self, RenderPlace};
+use crate::rendering::RenderPlace;
 use crate::schema::Field;
-use crate::view::{beginning, line_ending};
-use scene::Rendering;
 use text::Span;
 
 /// The places of everything lowered, as token indices: valid only with the tree they were made
 /// from.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Origins {
-    pub(super) view: Option<ViewPlace>,
+    pub(super) view: ViewComment,
     pub(super) render: Option<RenderPlace>,
     /// Number of tokens, at the start, that are ambient light's numbers.
     pub(super) ambient: usize,
@@ -28,15 +27,6 @@ pub(crate) struct Origins {
     pub(super) objects: Arc<Vec<ObjectPlace>>,
     /// Number of tokens in the text.
     pub(super) tokens: usize,
-}
-
-/// The places of the parts of a view comment.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct ViewPlace {
-    /// The whole comment.
-    pub(super) comment: Span,
-    /// In the order of [`VIEW`]: one span per component of the field, or `None` if missing.
-    pub(super) parts: [Option<[Span; 3]>; VIEW.slots.len()],
 }
 
 /// The place of an object.
@@ -82,29 +72,9 @@ impl Origins {
 
     /// The comments of the view and of the render settings.
     pub(super) fn comments(&self) -> impl Iterator<Item = (Node, Span)> + use<> {
-        let view = self.view.map(|view| (Node::View, view.comment));
+        let view = self.view.comment.map(|comment| (Node::View, comment));
         let render = self.render.map(|render| (Node::Render, render.whole));
         view.into_iter().chain(render)
-    }
-
-    pub(super) fn render_fields(&self, text: &str) -> Vec<FieldSpans> {
-        let render = self.render.as_ref();
-        let (start, ending) = (beginning(text), line_ending(text));
-        let insertion = rendering::insertion(render, start, "// render:", ending);
-        rendering::fields(render, &Rendering::default(), &insertion, None)
-    }
-
-    pub(super) fn view_fields(&self) -> Vec<FieldSpans> {
-        let parts = self
-            .view
-            .map_or([None; VIEW.slots.len()], |view| view.parts);
-        VIEW.fields()
-            .zip(parts)
-            .map(|(field, part)| {
-                let spans = part.map(|spans| spans[..field.kind.components()].to_vec());
-                FieldSpans::explicit(field, spans.unwrap_or_default())
-            })
-            .collect()
     }
 
     /// The node that a token belongs to; `None` for counts and surplus tokens.

@@ -1,17 +1,18 @@
 //! What a `.ray` text says: its [`SceneText`].
 
 use super::origins::distribute;
-use super::schema::{AMBIENT, LIGHT};
+use super::schema::{AMBIENT, LIGHT, VIEW};
 use super::tree::comment_of_line;
+use super::view_comment::PLACES;
 use super::{Source, incremental, lower, memory_estimate, view};
-use crate::rendering::Around;
+use crate::rendering::{self, Around};
 use crate::report::Name;
 use crate::schema::Field;
 use crate::view::Numbers;
 use crate::written::Since;
 use crate::{Before, FieldSpans, Lowered, Node, Nodes, SceneText, Visibility};
 use memory::OutOfMemory;
-use scene::{Camera, Meshes};
+use scene::{Camera, Meshes, Rendering};
 use text::{Edit, Span};
 
 impl SceneText for Source {
@@ -62,8 +63,12 @@ impl SceneText for Source {
         let origins = &self.origins;
         let tokens = &origins.numbers(&self.tree, node);
         match node {
-            Node::View => origins.view_fields(),
-            Node::Render => origins.render_fields(&self.text),
+            Node::View => origins.view.fields(),
+            Node::Render => {
+                let render = origins.render.as_ref();
+                let insertion = rendering::insertion(&self.text, render, "// render:");
+                rendering::fields(render, &Rendering::default(), &insertion, None)
+            }
             Node::Ambient => distribute(tokens, AMBIENT.fields()),
             Node::Light(_) => distribute(tokens, LIGHT.fields()),
             Node::Object(index) => origins
@@ -147,7 +152,7 @@ impl SceneText for Source {
     }
 
     fn view_fields(&self) -> Vec<&'static Field> {
-        view::fields().collect()
+        VIEW.fields().collect()
     }
 
     fn drawn(&self, object: usize) -> Option<u32> {
@@ -163,11 +168,11 @@ impl SceneText for Source {
     }
 
     fn view_camera(&self, numbers: &Numbers, _: &Camera) -> Camera {
-        view::PLACES.camera(numbers)
+        PLACES.camera(numbers)
     }
 
     fn view_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit> {
-        view::edits(&self.text, &self.origins, before, camera)
+        view::edits(&self.text, &self.origins.view, before, camera)
     }
 
     fn comment_marks(&self) -> [&'static str; 2] {

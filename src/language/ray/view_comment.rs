@@ -2,21 +2,36 @@
 //! the render settings, `// render: KEY VALUE …`, and that of the view:
 //! `// view: eye x y z target x y z up x y z fov deg size w h`, any subset, in any order.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
-use super::origins::ViewPlace;
 use super::schema::VIEW;
-use super::tree::{self, Tokens, after_key, comment_of_line};
-use super::view;
-use crate::camera::{CameraSpans, check, default_eye_and_target};
+use super::tree::{self, Tokens, comment_of_line};
+use crate::camera::{CameraSpans, Pinhole, check, default_eye_and_target};
+use crate::field_spans::FieldSpans;
 use crate::record::what;
-use crate::rendering::{RenderPlace, given_again, read_comment};
-use crate::report::{Name, no_number, number, quoted};
-use crate::schema::{Field, Kind};
-use crate::words::Words;
+use crate::rendering::{RenderPlace, first_comment};
+use crate::report::{Name, number_in_comment, quoted};
+use crate::schema::Kind;
+use crate::words::{Words, after_key};
 use geometry::{Aabb, normalise};
 use scene::Camera;
-use text::{Diagnostic, Findings, Severity, Span, is_integer, parse_number};
+use text::{Diagnostic, Findings, Span, alternatives};
+
+/// The numbers of a view without a comment, in the order of [`VIEW`], but for eye and target.
+pub(super) const DEFAULT: [f64; VIEW.numbers()] = [
+    0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 45.0, 800.0, 600.0,
+];
+
+/// The positions of the numbers.
+pub(super) const PLACES: Pinhole = Pinhole {
+    eye: VIEW.at("eye"),
+    target: VIEW.at("target"),
+    up: VIEW.at("up"),
+    fov: VIEW.at("fov"),
+    size: VIEW.at("size"),
+};
 
 /// Indices in [`VIEW`].
 const EYE: usize = VIEW.slot("eye");
@@ -26,57 +41,138 @@ const UP: usize = VIEW.slot("up");
 /// The direction of the default eye from the centre of the scene.
 const DEFAULT_SIDE: DVec3 = DVec3::new(0.4, 0.3, 1.0);
 
-/// The content of a view comment.
+/// What a text says of its view.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ViewComment {
-    comment: Span,
-    parts: [Option<FieldNumbers>; VIEW.slots.len()],
+    /// The whole comment, if there is one.
+    pub(super) comment: Option<Span>,
+    /// Whether it states each field of [`VIEW`].
+    states: [bool; VIEW.slots.len()],
+    /// All numbers, with defaults for those that are not stated.
+    numbers: [f64; VIEW.numbers()],
+    /// The tokens of those that are.
+    spans: [Span; VIEW.numbers()],
 }
 
-/// The numbers of one field; the arrays are filled up to its number of components.
-#[derive(Clone, Copy, Debug, Default)]
-struct FieldNumbers {
-    spans: [Span; 3],
-    values: [f64; 3],
-}
-
-impl FieldNumbers {
-    fn vector(&self) -> DVec3 {
-        DVec3::from_array(self.values)
+/// No comment.
+impl Default for ViewComment {
+    fn default() -> Self {
+        Self {
+            comment: None,
+            states: [false; VIEW.slots.len()],
+            numbers: DEFAULT,
+            spans: [Span::default(); VIEW.numbers()],
+        }
     }
 }
 
 impl ViewComment {
-    /// The places of its parts.
-    pub(super) fn place(&self) -> ViewPlace {
-        ViewPlace {
-            comment: self.comment,
-            parts: self.parts.map(|part| part.map(|part| part.spans)),
+    /// Whether it states both eye and target.
+    pub(super) fn has_eye_and_target(&self) -> bool {
+        self.states[EYE] && self.states[TARGET]
+    }
+
+    /// The fields of the view, without places if they are not stated.
+    pub(super) fn fields(&self) -> Vec<FieldSpans> {
+        let fields = VIEW.fields().enumerate().map(|(at, field)| {
+            let spans = self.tokens(at).unwrap_or_default().to_vec();
+            FieldSpans::explicit(field, spans)
+        });
+        fields.collect()
+    }
+
+    /// The tokens of a field's numbers, if it is stated.
+    fn tokens(&self, field: usize) -> Option<&[Span]> {
+        self.states[field].then(|| &self.spans[numbers_of(field)])
+    }
+
+    /// The span of a field, or of the whole comment if that does not state it.
+    fn span(&self, field: usize) -> Option<Span> {
+        match self.tokens(field) {
+            Some(tokens) => Some(tokens[0].to(tokens[tokens.len() - 1])),
+            None => self.comment,
         }
     }
 
-    /// Whether it states both eye and target.
-    pub(super) fn has_eye_and_target(&self) -> bool {
-        has_eye_and_target(&self.parts)
+    /// Reads the numbers of a field from the words after its key.
+    fn read(
+        &mut self,
+        field: usize,
+        text: &str,
+        words: &mut Words<'_>,
+        report: &mut Findings,
+    ) -> Result<(), Diagnostic> {
+        let (numbers, field) = (numbers_of(field), VIEW.field(field));
+        for (at, component) in numbers.clone().zip(field.kind.component_names()) {
+            let what = || what(Name::View, field, component);
+            let end = || Span::at(self.comment.unwrap_or_default().end());
+            let span = words.next().unwrap_or_else(end);
+            let word = span.of(text);
+            if span.is_empty() || VIEW.fields().any(|field| field.key == word) {
+                let message = format!("{}: missing", what());
+                return Err(Diagnostic::warning(span, message, field.allowed.words()));
+            }
+            self.numbers[at] = number_in_comment(field, span, word, report, what)?;
+            self.spans[at] = span;
+        }
+        let is_zero = |numbers: &[f64]| normalise(DVec3::from_slice(numbers)).is_none();
+        if field.kind == Kind::Direction && is_zero(&self.numbers[numbers.clone()]) {
+            let span = self.spans[numbers.start].to(self.spans[numbers.end - 1]);
+            let message = format!("{}: must not be zero", what(Name::View, field, ""));
+            return Err(Diagnostic::warning(span, message, "a direction"));
+        }
+        Ok(())
     }
 
-    /// The span of a part, or of the whole comment if the part is missing.
-    fn span(&self, part: usize) -> Span {
-        self.parts[part].map_or(self.comment, |found| {
-            found.spans[0].to(found.spans[VIEW.field(part).kind.components() - 1])
-        })
+    /// Returns the camera of the view, with defaults for missing parts. `bounds` is called only if a
+    /// default needs it. Reports an unusable camera at the view or, without one, at `otherwise`.
+    pub(super) fn camera(
+        &self,
+        bounds: impl FnOnce() -> Aabb,
+        otherwise: Span,
+        report: &mut Findings,
+    ) -> Camera {
+        let mut numbers = self.numbers;
+        if !self.has_eye_and_target() {
+            let fov = PLACES.fov.number(&numbers);
+            let (eye, centre) = default_eye_and_target(bounds(), fov, DEFAULT_SIDE);
+            if !self.states[EYE] {
+                PLACES.eye.put(&mut numbers, eye.into());
+            }
+            if !self.states[TARGET] {
+                PLACES.target.put(&mut numbers, centre.into());
+            }
+        }
+        let camera = PLACES.camera(&numbers);
+        let span = |field| self.span(field).unwrap_or(otherwise);
+        let [eye, target] = match (self.states[EYE], self.states[TARGET]) {
+            (true, true) => [span(EYE), span(TARGET)],
+            (false, true) => [span(TARGET); 2],
+            (_, false) => [span(EYE); 2],
+        };
+        let places = CameraSpans {
+            eye,
+            target,
+            up: span(UP),
+            whole: otherwise,
+            remedy: "give eye and target in a comment: // view: eye x y z target x y z",
+        };
+        check(&camera, &places, report);
+        camera
     }
 }
 
-/// Whether these parts of a view include both eye and target.
-pub(super) fn has_eye_and_target<T>(parts: &[Option<T>; VIEW.slots.len()]) -> bool {
-    parts[EYE].is_some() && parts[TARGET].is_some()
+/// The indices of a field's numbers.
+fn numbers_of(field: usize) -> Range<usize> {
+    let before = VIEW.fields().take(field);
+    let first = before.map(|field| field.kind.components()).sum();
+    first..first + VIEW.field(field).kind.components()
 }
 
 /// Finds the first well-formed view comment. Warns of malformed ones, which are ignored entirely,
 /// and of well-formed ones after the first.
-pub(super) fn find(text: &str, tokens: &Tokens, report: &mut Findings) -> Option<ViewComment> {
-    let mut found = None;
+pub(super) fn find(text: &str, tokens: &Tokens, report: &mut Findings) -> ViewComment {
+    let mut found = ViewComment::default();
     for (comment, body) in keyed(text, tokens, tree::VIEW) {
         let mut findings = Findings::default();
         match read(text, comment, body, &mut findings) {
@@ -84,9 +180,9 @@ pub(super) fn find(text: &str, tokens: &Tokens, report: &mut Findings) -> Option
                 message: format!("{}; the whole comment is ignored", malformed.message),
                 ..malformed
             }),
-            Ok(view) if found.is_none() => {
+            Ok(view) if found.comment.is_none() => {
                 report.append(findings);
-                found = Some(view);
+                found = view;
             }
             Ok(_) => report.warning(|| {
                 let message = "view: already given, this comment is ignored";
@@ -103,21 +199,7 @@ pub(super) fn find_rendering(
     tokens: &Tokens,
     report: &mut Findings,
 ) -> Option<RenderPlace> {
-    let mut found: Option<RenderPlace> = None;
-    for (comment, body) in keyed(text, tokens, tree::RENDER) {
-        let mut findings = Findings::default();
-        let Some(place) = read_comment(text, comment, body, &mut findings) else {
-            report.append(findings);
-            continue;
-        };
-        if found.is_some() {
-            report.warning(|| given_again(comment));
-        } else {
-            report.append(findings);
-            found = Some(place);
-        }
-    }
-    found
+    first_comment(text, keyed(text, tokens, tree::RENDER), report)
 }
 
 /// The comments with a key, and what follows it.
@@ -128,138 +210,42 @@ fn keyed<'t>(
 ) -> impl Iterator<Item = (Span, Span)> + 't {
     tokens.keyed().filter_map(move |start| {
         let comment = comment_of_line(text, start)?;
-        Some((comment, after_key(text, comment, key)?))
+        Some((comment, after_key(text, comment, "//", key)?))
     })
 }
 
-/// Reads the parts of a view comment; an error is a warning for the text. Reports what is skipped.
+/// Reads a view comment; an error is a warning for the text. Reports what is skipped.
 fn read(
     text: &str,
     comment: Span,
     body: Span,
     report: &mut Findings,
 ) -> Result<ViewComment, Diagnostic> {
-    let mut parts = [None; VIEW.slots.len()];
-    let mut rest = Words::new(text, body);
-    while let Some(key) = rest.next() {
+    let mut view = ViewComment {
+        comment: Some(comment),
+        ..ViewComment::default()
+    };
+    let mut words = Words::new(text, body);
+    while let Some(key) = words.next() {
         let word = key.of(text);
-        let Some(index) = VIEW.fields().position(|field| field.key == word) else {
+        let Some(field) = VIEW.fields().position(|field| field.key == word) else {
             return Err(unknown_word(key, word));
         };
-        let field = VIEW.field(index);
-        if parts[index].is_some() {
+        if std::mem::replace(&mut view.states[field], true) {
             let message = format!("view {word}: given twice");
             return Err(Diagnostic::warning(key, message, "each part once"));
         }
-        parts[index] = Some(read_part(text, field, &mut rest, comment.end(), report)?);
+        view.read(field, text, &mut words, report)?;
     }
-    Ok(ViewComment { comment, parts })
+    Ok(view)
 }
 
 fn unknown_word(span: Span, word: &str) -> Diagnostic {
+    let keys = || VIEW.fields().map(|field| field.key);
     let message = format!("view: unknown word {}", quoted(word));
-    let diagnostic = Diagnostic::warning(span, message, "eye, target, up, fov or size");
-    let meant = VIEW
-        .fields()
-        .find(|field| field.key.eq_ignore_ascii_case(word));
-    match meant {
-        Some(field) => diagnostic.with_hint(format!("write `{}`", field.key)),
+    let diagnostic = Diagnostic::warning(span, message, alternatives(keys()));
+    match keys().find(|key| key.eq_ignore_ascii_case(word)) {
+        Some(key) => diagnostic.with_hint(format!("write `{key}`")),
         None => diagnostic,
     }
-}
-
-/// Reads the numbers of one part from the words after its key.
-fn read_part(
-    text: &str,
-    field: &Field,
-    words: &mut impl Iterator<Item = Span>,
-    end: usize,
-    report: &mut Findings,
-) -> Result<FieldNumbers, Diagnostic> {
-    let mut part = FieldNumbers::default();
-    for (at, component) in field.kind.component_names().iter().enumerate() {
-        let what = what(Name::View, field, component);
-        let missing =
-            |span| Diagnostic::warning(span, format!("{what}: missing"), field.allowed.words());
-        let span = words.next().ok_or_else(|| missing(Span::at(end)))?;
-        let word = span.of(text);
-        let read = if field.kind.is_size() {
-            parse_number(word)
-        } else {
-            number(span, word, report, || what.clone())
-        };
-        let value = match read {
-            Ok(value) => value,
-            Err(_) if VIEW.fields().any(|field| field.key == word) => return Err(missing(span)),
-            Err(error) => {
-                let expected = field.allowed.words();
-                let severity = Severity::Warning;
-                return Err(no_number(severity, span, word, &what, &expected, error));
-            }
-        };
-        let fits = field.kind != Kind::Pixels || value <= f64::from(u32::MAX);
-        let whole = field.kind != Kind::Pixels || is_integer(word);
-        if !field.allowed.contains(value) || !fits || !whole {
-            let limits = if fits {
-                field.allowed.limits()
-            } else {
-                format!("{} at most", u32::MAX)
-            };
-            let message = format!("{what}: must be {limits}");
-            return Err(Diagnostic::warning(span, message, field.allowed.words()));
-        }
-        (part.spans[at], part.values[at]) = (span, value);
-    }
-    if field.kind == Kind::Direction && normalise(part.vector()).is_none() {
-        let span = part.spans[0].to(part.spans[2]);
-        let message = format!("{}: must not be zero", what(Name::View, field, ""));
-        return Err(Diagnostic::warning(span, message, "a direction"));
-    }
-    Ok(part)
-}
-
-/// Returns the camera of the view, with defaults for missing parts. `bounds` is called only if a
-/// default needs it. Reports an unusable camera at the view or, without one, at `otherwise`.
-pub(super) fn camera(
-    comment: Option<&ViewComment>,
-    bounds: impl FnOnce() -> Aabb,
-    otherwise: Span,
-    report: &mut Findings,
-) -> Camera {
-    let has = |part: usize| comment.is_some_and(|comment| comment.parts[part].is_some());
-    let mut numbers = view::DEFAULT;
-    let mut rest = &mut numbers[..];
-    for (at, field) in VIEW.fields().enumerate() {
-        let (own, behind) = rest.split_at_mut(field.kind.components());
-        if let Some(part) = comment.and_then(|comment| comment.parts[at]) {
-            own.copy_from_slice(&part.values[..own.len()]);
-        }
-        rest = behind;
-    }
-    if !(has(EYE) && has(TARGET)) {
-        let fov = view::PLACES.fov.number(&numbers);
-        let (eye, centre) = default_eye_and_target(bounds(), fov, DEFAULT_SIDE);
-        if !has(EYE) {
-            view::PLACES.eye.put(&mut numbers, eye.into());
-        }
-        if !has(TARGET) {
-            view::PLACES.target.put(&mut numbers, centre.into());
-        }
-    }
-    let camera = view::PLACES.camera(&numbers);
-    let part = |part| comment.map_or(otherwise, |comment: &ViewComment| comment.span(part));
-    let [eye, target] = match (has(EYE), has(TARGET)) {
-        (true, true) => [part(EYE), part(TARGET)],
-        (false, true) => [part(TARGET); 2],
-        (_, false) => [part(EYE); 2],
-    };
-    let places = CameraSpans {
-        eye,
-        target,
-        up: part(UP),
-        whole: otherwise,
-        remedy: "give eye and target in a comment: // view: eye x y z target x y z",
-    };
-    check(&camera, &places, report);
-    camera
 }

@@ -157,6 +157,11 @@ impl Range {
             }
     }
 
+    /// Whether only integers are within the bounds.
+    pub const fn is_whole(self) -> bool {
+        matches!(self, Self::Count | Self::Whole(..) | Self::Identity)
+    }
+
     /// The least and greatest number within the bounds; `None` if there are gaps between.
     pub const fn ends(self) -> Option<[f64; 2]> {
         match self {
@@ -176,7 +181,7 @@ impl Range {
     pub fn words(self) -> String {
         match self {
             Self::Any => "a number".to_owned(),
-            Self::Count | Self::Whole(..) | Self::Identity => self.limits(),
+            _ if self.is_whole() => self.limits(),
             _ => format!("a number {}", self.limits()),
         }
     }

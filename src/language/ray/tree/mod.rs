@@ -4,7 +4,7 @@ mod scan;
 mod tokens;
 mod window;
 
-use crate::words::{skip_white_space, trim_end};
+use crate::words::{after_key, trim_end};
 use crate::written::{Parse, Replaced};
 use text::{Span, line_end, next_line};
 
@@ -60,17 +60,9 @@ pub(super) const VIEW: &str = "view:";
 /// What begins the comment of the render settings.
 pub(super) const RENDER: &str = "render:";
 
-/// The part of a comment after its key, [`VIEW`] or [`RENDER`]; `None` for other comments.
-pub(super) fn after_key(text: &str, comment: Span, key: &str) -> Option<Span> {
-    let bytes = comment.of(text).as_bytes();
-    let start = skip_white_space(bytes, bytes.strip_prefix(b"//").map(|_| 2)?);
-    let body = bytes[start..].strip_prefix(key.as_bytes())?;
-    Some(Span::new(comment.end() - body.len(), comment.end()))
-}
-
 /// Whether a comment begins with a key.
 fn has_key(text: &str, comment: Span) -> bool {
-    let has = |key| after_key(text, comment, key).is_some();
+    let has = |key| after_key(text, comment, "//", key).is_some();
     "//view:".len() <= comment.len() && (has(VIEW) || has(RENDER))
 }
 
@@ -144,7 +136,7 @@ mod tests {
             (r"\\ view: eye 1", VIEW, None),
         ] {
             let whole = Span::new(0, comment.len());
-            let found = after_key(comment, whole, key);
+            let found = after_key(comment, whole, "//", key);
             assert_eq!(found.map(|span| span.of(comment)), body, "{comment}");
             assert_eq!(
                 has_key(comment, whole),
