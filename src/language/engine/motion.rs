@@ -1,5 +1,7 @@
 //! Moves, turns and scales nodes, and changes solids to others, by what their numbers are in space.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
 use crate::field_spans::FieldSpans;
@@ -194,6 +196,24 @@ pub(crate) trait Moves {
             }
             _ => Err(fixed()),
         }
+    }
+
+    /// The edits that move nodes, each once.
+    fn all_moved(
+        &self,
+        nodes: impl Iterator<Item = Node>,
+        motion: &Motion,
+        decimals: usize,
+    ) -> Result<Vec<Edit>, StructureError>
+    where
+        Self: SceneText,
+    {
+        let mut edits = Vec::new();
+        for node in nodes.collect::<BTreeSet<_>>() {
+            edits.extend(self.moved(node, motion, decimals)?);
+        }
+        Edit::sort(&mut edits);
+        Ok(edits)
     }
 
     fn moved_solid(

@@ -267,13 +267,7 @@ where
             }
             _ => vec![node],
         });
-        let moved: BTreeSet<_> = moved.collect();
-        let moved = moved
-            .into_iter()
-            .map(|node| self.moved(node, motion, decimals));
-        let mut edits = moved.collect::<Result<Vec<_>, _>>()?.concat();
-        Edit::sort(&mut edits);
-        Ok(edits)
+        self.all_moved(moved, motion, decimals)
     }
 }
 

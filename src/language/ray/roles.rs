@@ -45,17 +45,19 @@ pub(super) fn roles(text: &str, leaves: &[Span], [at_start, at_end]: [bool; 2]) 
 
 /// The role of a number before the first object, of so many.
 fn role_of_head(number: usize, count: usize) -> Role {
-    let (ambient, each) = (AMBIENT.numbers(), LIGHT.numbers());
-    let is_complete = count
-        .checked_sub(ambient + 2)
-        .is_some_and(|lights| lights % each == 0);
-    if !is_complete {
-        return ANYWHERE;
-    }
-    match number.checked_sub(ambient) {
+    match number.checked_sub(AMBIENT.numbers()) {
+        _ if lights_in_head(count).is_none() => ANYWHERE,
         None => role(b'a', number),
         Some(0) => role(b'n', 0),
         _ if number + 1 == count => role(b'n', 1),
-        Some(light) => role(b'l', (light - 1) % each),
+        Some(light) => role(b'l', (light - 1) % LIGHT.numbers()),
     }
+}
+
+/// The number of lights in so many numbers before the first object, if they are whole: ambient light,
+/// a count, lights, and another count.
+pub(super) fn lights_in_head(numbers: usize) -> Option<usize> {
+    let lights = numbers.checked_sub(AMBIENT.numbers() + 2)?;
+    let each = LIGHT.numbers();
+    (lights % each == 0).then_some(lights / each)
 }
