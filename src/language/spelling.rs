@@ -34,6 +34,21 @@ pub(super) fn vector(out: &mut String, vector: DVec3) {
     numbers(out, vector.to_array());
 }
 
+/// Appends groups of numbers, each set apart from what is before on its line.
+pub(super) fn groups(out: &mut String, groups: &[&[f64]]) {
+    for group in groups {
+        if !out.is_empty() && !out.ends_with('\n') {
+            out.push_str("  ");
+        }
+        for (at, value) in group.iter().enumerate() {
+            if at != 0 {
+                out.push(' ');
+            }
+            number(out, *value);
+        }
+    }
+}
+
 /// Returns the number as a person would write it: one of fifteen digits, if that is equal up to the
 /// rounding of a few operations.
 pub(super) fn rounded_off(number: f64) -> f64 {

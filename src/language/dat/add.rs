@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::schema::{CSG, QUADRIC, SCHEMA, USE_COLOUR};
 use super::{Source, quadric};
-use crate::engine::motion::{Moves, refusal};
+use crate::engine::motion::{Moves, numbers_of};
 use crate::form::Form;
 use crate::schema::Category;
 use crate::spelling::rounded_off;
@@ -111,13 +111,9 @@ fn literals(
 ) -> Result<String, StructureError> {
     let solid = SCHEMA.solids().find(|record| record.name == kind);
     let record = solid.unwrap_or(&QUADRIC);
-    let mut numbers = vec![0.0; record.numbers()];
-    match &record.layout {
-        Some(layout) => {
-            let put = layout.put(form, &mut numbers);
-            put.map_err(|unfit| refusal(unfit, SCHEMA.extension, kind))?;
-        }
-        None => quadric::put(form, &mut numbers),
+    let mut numbers = numbers_of(&SCHEMA, record, form)?;
+    if record.layout.is_none() {
+        quadric::put(form, &mut numbers);
     }
     let mut rest = &numbers[1..];
     let groups = record.fields().skip(1).map(|field| {

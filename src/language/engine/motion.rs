@@ -278,8 +278,26 @@ pub(crate) trait Moves {
     }
 }
 
+/// The numbers of a record, of which those that place a unit solid are of a form and all others are 0.
+///
+/// # Errors
+///
+/// Fails if they cannot describe the form.
+pub(crate) fn numbers_of(
+    schema: &Schema,
+    record: &Record,
+    form: &Form,
+) -> Result<Vec<f64>, StructureError> {
+    let mut numbers = vec![0.0; record.numbers()];
+    if let Some(layout) = &record.layout {
+        let put = layout.put(form, &mut numbers);
+        put.map_err(|unfit| refusal(unfit, schema.extension, record.name))?;
+    }
+    Ok(numbers)
+}
+
 /// Why a record of this name, in a language with this extension, cannot take a form.
-pub(crate) fn refusal(unfit: Unfit, extension: &str, name: &str) -> StructureError {
+fn refusal(unfit: Unfit, extension: &str, name: &str) -> StructureError {
     StructureError::Inexpressible(match unfit {
         Unfit::Uneven => {
             format!("a {name} has a single radius: change its type to ellipsoid first")

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::Source;
 use super::schema::{LIGHT, MATERIAL, SCHEMA, ShapeKind};
 use super::tree::comment_of_line;
-use crate::engine::motion::{Moves, refusal};
+use crate::engine::motion::{Moves, numbers_of};
 use crate::form::Form;
 use crate::schema::{Field, Kind};
 use crate::spelling::rounded_off;
@@ -40,7 +40,7 @@ pub(super) fn addition(
             ShapeKind::Sphere | ShapeKind::Ellipsoid | ShapeKind::Box => DVec3::Z,
         };
         let form = Form::upright(wish.centre, wish.half, axis);
-        let numbers = numbers(kind, &form)?.into_iter();
+        let numbers = numbers_of(&SCHEMA, kind.record(), &form)?.into_iter();
         let mut literals: Vec<_> = numbers.map(|number| wish.literal(number)).collect();
         let material = match wish.after {
             Node::Object(selected) => source.material_literals(selected),
@@ -73,10 +73,8 @@ pub(super) fn respelled(
     let (old, new) = old.ok_or_else(|| {
         StructureError::Inexpressible(format!("{} has only one type", source.name(node)))
     })?;
-    let literals = numbers(new, form)?.into_iter();
-    let literals: Vec<_> = literals
-        .map(|number| spelled(rounded_off(number)))
-        .collect();
+    let numbers = numbers_of(&SCHEMA, new.record(), form)?.into_iter();
+    let literals: Vec<_> = numbers.map(|number| spelled(rounded_off(number))).collect();
     // The material stays as it is written.
     let last = old.spans[old.record.numbers() - 1];
     let span = Span::new(source.span(node).start(), last.end());
@@ -85,14 +83,6 @@ pub(super) fn respelled(
         span,
         text: source.with_comments(span, text.trim_start()),
     }])
-}
-
-/// The numbers of a shape of this form.
-fn numbers(kind: ShapeKind, form: &Form) -> Result<Vec<f64>, StructureError> {
-    let mut numbers = vec![0.0; kind.geometry()];
-    let put = kind.layout().put(form, &mut numbers);
-    put.map_err(|unfit| refusal(unfit, SCHEMA.extension, kind.keyword()))?;
-    Ok(numbers)
 }
 
 /// The literals of a plain material.
@@ -173,7 +163,7 @@ impl Source {
                 None => {}
             }
             laid_out.push_str(&own.join(" "));
-            before = Some((field.key, Some(field.kind)));
+            before = Some(side(field));
         }
         laid_out
     }
@@ -185,35 +175,27 @@ impl Source {
         let models = like.into_iter().chain(last.map(Node::Object));
         let is_long = |model: &Node| self.span(*model).of(&self.text).contains(['\n', '\r']);
         let joints = models.filter(is_long).flat_map(|model| {
-            let spans = self.origins.numbers(&self.tree, model);
-            let (fields, mut before): (Vec<&Field>, _) = match model {
+            let start = self.span(model).start();
+            let keyword = match model {
                 Node::Object(index) => {
-                    let kind = self.origins.objects[index].kind;
-                    let start = self.span(model).start() + kind.keyword().len();
-                    (kind.fields().collect(), Some((KEYWORD, start)))
+                    let keyword = self.origins.objects[index].kind.keyword();
+                    Some((KEYWORD, Span::new(start, start + keyword.len())))
                 }
-                _ => (LIGHT.fields().collect(), None),
+                _ => None,
             };
-            let mut at = 0;
-            let mut joints = Vec::new();
-            for field in fields {
-                let own = &spans[at.min(spans.len())..];
-                at += field.kind.components();
-                let (Some(first), Some(last)) = (own.first(), own.get(field.kind.components() - 1))
-                else {
-                    break;
-                };
-                let side = (field.key, Some(field.kind));
-                if let Some((before, end)) = before {
-                    let between = Span::new(end, first.start().max(end)).of(&self.text);
-                    joints.push(Joint {
-                        sides: [before, side],
-                        breaks: between.contains(['\n', '\r']),
-                    });
+            let fields = self.fields(model).into_iter().map(|placed| {
+                let whole = placed.spans[0].to(placed.spans[placed.spans.len() - 1]);
+                (side(placed.field), whole)
+            });
+            let parts: Vec<_> = keyword.into_iter().chain(fields).collect();
+            let joints = parts.windows(2).map(|pair| {
+                let between = Span::new(pair[0].1.end(), pair[1].1.start());
+                Joint {
+                    sides: [pair[0].0, pair[1].0],
+                    breaks: between.of(&self.text).contains(['\n', '\r']),
                 }
-                before = Some((side, last.end()));
-            }
-            joints
+            });
+            joints.collect::<Vec<_>>()
         });
         joints.collect()
     }
@@ -227,6 +209,10 @@ type Side = (&'static str, Option<Kind>);
 
 const KEYWORD: Side = ("", None);
 
+fn side(field: &Field) -> Side {
+    (field.key, Some(field.kind))
+}
+
 /// Two parts of an object that follow each other.
 struct Joint {
     sides: [Side; 2],
@@ -237,7 +223,7 @@ struct Joint {
 /// Whether a field begins a line: as after the same field before, otherwise as between two fields of
 /// the same kinds in a shape.
 fn breaks(joints: &[Joint], before: Side, field: &Field) -> bool {
-    let is_same = |joint: &&Joint| joint.sides == [before, (field.key, Some(field.kind))];
+    let is_same = |joint: &&Joint| joint.sides == [before, side(field)];
     let is_alike = |joint: &&Joint| {
         let [a, b] = joint.sides;
         let is_shape = |key| MATERIAL.fields().all(|field| field.key != key);

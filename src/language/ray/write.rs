@@ -4,15 +4,18 @@ use std::fmt::Write;
 
 use glam::DVec3;
 
+use super::schema::VIEW;
+use super::view;
 use crate::approximations::solids;
 use crate::coefficients::Coefficients;
 use crate::losses::{Loss, Losses, Of};
 use crate::rendering::words;
-use crate::spelling::{number, numbers, vector};
+use crate::spelling::{groups, numbers};
 use crate::surroundings::{DISTANT, FADING, SHADOWLESS, SIZE, SPOT, angle, faded, report_plain};
+use crate::view::take;
 use crate::whitted::whitted;
-use geometry::{Affine, FrameNumbers, Solid};
-use scene::{Camera, Emitter, Falloff, FalloffRule, Light, Rgb, Scene, Shadows, Size};
+use geometry::{Affine, Solid};
+use scene::{Camera, Emitter, Falloff, FalloffRule, Lens, Light, Rgb, Scene, Shadows};
 
 /// The distance of a point light that stands for one infinitely far away, in radii of the scene.
 const FAR_AWAY: f64 = 1e4;
@@ -33,7 +36,9 @@ const NO_OBJECT: Loss = Loss {
 pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
     report_plain(scene, losses);
     let mut text = String::new();
-    view(&mut text, &scene.camera, angle(scene, losses));
+    let lens = Lens::Perspective(angle(scene, losses));
+    let camera = scene.camera;
+    view(&mut text, &Camera { lens, ..camera });
     let settings = words(&scene.setting.rendering);
     if !settings.is_empty() {
         // Writing to a string cannot fail.
@@ -45,32 +50,24 @@ pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
             losses.add(Of::Material(index), &TEXTURED);
         }
     }
-    let [red, green, blue] = whitted.ambient.to_array();
     text.push('\n');
-    number(&mut text, red);
-    numbers(&mut text, [green, blue]);
+    groups(&mut text, &[&whitted.ambient.to_array()]);
     text.push_str("  // ambient light\n\n");
     lights(&mut text, scene, losses);
     objects(&mut text, scene, &whitted.materials, losses);
     text
 }
 
-fn view(text: &mut String, camera: &Camera, angle: f64) {
+fn view(text: &mut String, camera: &Camera) {
     text.push_str("// view:");
-    for (key, point) in [
-        ("eye", camera.eye),
-        ("target", camera.target),
-        ("up", camera.up),
-    ] {
+    let all = view::numbers(camera);
+    let mut rest = &all[..];
+    for field in VIEW.fields() {
         text.push(' ');
-        text.push_str(key);
-        numbers(text, point.to_array());
+        text.push_str(field.key);
+        numbers(text, take(&mut rest, field).iter().copied());
     }
-    text.push_str(" fov");
-    numbers(text, [angle]);
-    let Size { width, height } = camera.size;
-    // Writing to a string cannot fail.
-    let _ = writeln!(text, " size {width} {height}");
+    text.push('\n');
 }
 
 fn lights(text: &mut String, scene: &Scene, losses: &mut Losses<'_>) {
@@ -97,9 +94,7 @@ fn lights(text: &mut String, scene: &Scene, losses: &mut Losses<'_>) {
 }
 
 fn one_light(text: &mut String, position: DVec3, colour: Rgb) {
-    number(text, position.x);
-    numbers(text, [position.y, position.z]);
-    vector(text, colour);
+    groups(text, &[&position.to_array(), &colour.to_array()]);
 }
 
 /// The position and colour of a light; `None` for ambient light.
@@ -167,8 +162,8 @@ fn objects(text: &mut String, scene: &Scene, materials: &[Coefficients], losses:
         let Camera { eye, target, .. } = scene.camera;
         let behind = eye + 4.0 * (eye - target);
         written.push_str("\nsphere\n");
-        number(&mut written, behind.x);
-        numbers(&mut written, [behind.y, behind.z, eye.distance(target)]);
+        let sphere = behind.extend(eye.distance(target));
+        groups(&mut written, &[&sphere.to_array()]);
         let black = Coefficients {
             index: 1.0,
             ..Coefficients::default()
@@ -193,37 +188,28 @@ fn shape(text: &mut String, solid: &Solid, label: Option<&str>) {
     }
     text.push('\n');
     if let Solid::Sphere(sphere) = solid {
-        let DVec3 { x, y, z } = sphere.centre;
-        number(text, x);
-        numbers(text, [y, z]);
-        text.push(' ');
-        numbers(text, [sphere.radius]);
+        groups(text, &[&sphere.centre.to_array(), &[sphere.radius]]);
     }
     if let Some(frame) = frame {
-        let FrameNumbers {
-            origin,
-            directions,
-            lengths,
-        } = frame.numbers();
-        number(text, origin.x);
-        numbers(text, [origin.y, origin.z]);
-        for direction in directions {
-            vector(text, direction);
-        }
-        vector(text, lengths);
+        let numbers = frame.numbers();
+        let [a, b, c] = numbers.directions;
+        let parts = [numbers.origin, a, b, c, numbers.lengths].map(|part| part.to_array());
+        groups(text, &parts.each_ref().map(|part| &part[..]));
     }
 }
 
 /// The numbers of a material, on a line of their own.
 fn one_material(text: &mut String, of: &Coefficients) {
     text.push('\n');
-    number(text, of.ambient.x);
-    numbers(text, [of.ambient.y, of.ambient.z]);
-    vector(text, of.diffuse);
-    vector(text, of.specular);
-    text.push(' ');
-    numbers(text, [of.exponent]);
-    text.push(' ');
-    numbers(text, [of.reflection, of.transmission, of.index]);
+    groups(
+        text,
+        &[
+            &of.ambient.to_array(),
+            &of.diffuse.to_array(),
+            &of.specular.to_array(),
+            &[of.exponent],
+            &[of.reflection, of.transmission, of.index],
+        ],
+    );
     text.push('\n');
 }

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::camera::near;
 use crate::losses::{Loss, Losses, Of};
-use crate::spelling::{numbers, vector};
+use crate::spelling::groups;
 use geometry::{FrameNumbers, Solid, Sphere, normalise};
 
 /// The largest difference, relative to its size, of what counts as a circle or a right angle.
@@ -46,16 +46,13 @@ pub(super) fn write(
     match solid {
         Solid::Sphere(Sphere { centre, radius }) => {
             head("sphere");
-            vector(text, *centre);
-            text.push(' ');
-            numbers(text, [*radius]);
+            groups(text, &[&centre.to_array(), &[*radius]]);
         }
         Solid::Ellipsoid(ellipsoid) => {
             let frame = ellipsoid.0.numbers();
             if let Some(lengths) = aligned(&frame) {
                 head("ellipsoid");
-                vector(text, frame.origin);
-                vector(text, lengths);
+                groups(text, &[&frame.origin.to_array(), &lengths.to_array()]);
             } else {
                 lose(&TURNED);
                 head("quadric");
@@ -115,10 +112,9 @@ fn cylinder(text: &mut String, frame: &FrameNumbers) {
     let direction = frame.directions[2];
     let (radius, length) = (frame.lengths.x, frame.lengths.z);
     let axis = normalise(direction).unwrap_or(direction);
-    vector(text, middle(frame.origin, 0.5 * length * axis));
-    vector(text, direction);
-    text.push(' ');
-    numbers(text, [radius, length]);
+    let centre = middle(frame.origin, 0.5 * length * axis);
+    let parts = [centre, direction].map(|part| part.to_array());
+    groups(text, &[&parts[0], &parts[1], &[radius, length]]);
 }
 
 fn cuboid(text: &mut String, frame: &FrameNumbers) {
@@ -131,12 +127,10 @@ fn cuboid(text: &mut String, frame: &FrameNumbers) {
     let DVec3 { x, y, z } = frame.lengths;
     let [wide, high, deep] = [width(u, x), width(v, y), width(w, z)];
     let half = 0.5 * (wide * u + high * v + deep * w);
-    vector(text, middle(frame.origin, half));
-    for direction in [u, v, w] {
-        vector(text, direction);
-    }
-    text.push(' ');
-    numbers(text, [wide, high, deep]);
+    let centre = middle(frame.origin, half);
+    let widths = DVec3::new(wide, high, deep);
+    let parts = [centre, u, v, w, widths].map(|part| part.to_array());
+    groups(text, &parts.each_ref().map(|part| &part[..]));
 }
 
 /// The point that, less `half`, is the origin, to the last bit if there is one.
@@ -179,10 +173,9 @@ fn quadric(text: &mut String, frame: &FrameNumbers, side: Side) {
     let sum = |term: &dyn Fn(usize) -> f64| (0..3).map(|at| signs[at] * term(at)).sum::<f64>();
     let square = |i: usize, j: usize| sum(&|at| duals[at][i] * duals[at][j]);
     let linear = |i: usize| -sum(&|at| duals[at][i] * along[at]);
-    text.push(' ');
-    numbers(
+    groups(
         text,
-        [
+        &[&[
             square(0, 0),
             square(0, 1),
             square(0, 2),
@@ -193,7 +186,7 @@ fn quadric(text: &mut String, frame: &FrameNumbers, side: Side) {
             square(2, 2),
             linear(2),
             sum(&|at| along[at] * along[at]) + constant,
-        ],
+        ]],
     );
     if side == Side::Ball {
         text.push_str("  0");
@@ -201,11 +194,8 @@ fn quadric(text: &mut String, frame: &FrameNumbers, side: Side) {
     }
     let dual = duals[2];
     let base = dual.dot(frame.origin);
-    text.push_str("  2");
-    vector(text, -dual);
-    numbers(text, [-base]);
-    vector(text, dual);
-    numbers(text, [base + 1.0]);
+    let cuts = [(-dual).extend(-base), dual.extend(base + 1.0)].map(|cut| cut.to_array());
+    groups(text, &[&[2.0], &cuts[0], &cuts[1]]);
 }
 
 /// The rows of the world-to-unit matrix.
