@@ -176,13 +176,10 @@ impl Source {
         let is_long = |model: &Node| self.span(*model).of(&self.text).contains(['\n', '\r']);
         let joints = models.filter(is_long).flat_map(|model| {
             let start = self.span(model).start();
-            let keyword = match model {
-                Node::Object(index) => {
-                    let keyword = self.origins.objects[index].kind.keyword();
-                    Some((KEYWORD, Span::new(start, start + keyword.len())))
-                }
-                _ => None,
-            };
+            let keyword = self.origins.kind(model).map(|kind| {
+                let end = start + kind.keyword().len();
+                (KEYWORD, Span::new(start, end))
+            });
             let fields = self.fields(model).into_iter().map(|placed| {
                 let whole = placed.spans[0].to(placed.spans[placed.spans.len() - 1]);
                 (side(placed.field), whole)

@@ -3,10 +3,10 @@
 //! Each of a million objects costs eight bytes: it is stored as a token index, and spans are looked
 //! up in the tree on demand.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::schema::{LIGHT, ShapeKind};
-use super::tree::Tree;
 use super::view_comment::ViewComment;
 use crate::field_spans::FieldSpans;
 use crate::node::Node;
@@ -47,27 +47,30 @@ impl Origins {
         (self.lights.1 + each - LIGHT.field(0).kind.components()) / each
     }
 
-    /// The tokens of a node's numbers; none for what is stated in comments.
-    pub(super) fn numbers(&self, tree: &Tree, node: Node) -> Vec<Span> {
-        let (start, len) = match node {
-            Node::View
-            | Node::Render
-            | Node::Material(_)
-            | Node::Texture(_)
-            | Node::Background
-            | Node::Environment => (0, 0),
-            Node::Ambient => (0, self.ambient),
+    /// The kind of an object.
+    pub(super) fn kind(&self, node: Node) -> Option<ShapeKind> {
+        match node {
+            Node::Object(index) => Some(self.objects.get(index)?.kind),
+            _ => None,
+        }
+    }
+
+    /// The tokens of a node, an object's keyword included; none for what is stated in comments.
+    pub(super) fn tokens(&self, node: Node) -> Range<usize> {
+        match node {
+            Node::Ambient => 0..self.ambient,
             Node::Light(index) => {
+                let (first, count) = self.lights;
                 let each = LIGHT.numbers();
-                let offset = index.saturating_mul(each);
-                let left = self.lights.1.saturating_sub(offset);
-                (self.lights.0.saturating_add(offset), left.min(each))
+                let offset = count.min(index.saturating_mul(each));
+                first + offset..first + count.min(offset + each)
             }
-            Node::Object(index) => self.objects.get(index).map_or((0, 0), |object| {
-                (object.token as usize + 1, usize::from(object.numbers))
+            Node::Object(index) => self.objects.get(index).map_or(0..0, |object| {
+                let keyword = object.token as usize;
+                keyword..keyword + 1 + usize::from(object.numbers)
             }),
-        };
-        tree.tokens.range(start..start.saturating_add(len))
+            _ => 0..0,
+        }
     }
 
     /// The comments of the view and of the render settings.

@@ -9,24 +9,14 @@ use super::origins::{ObjectPlace, Origins};
 use super::schema::{AMBIENT, LIGHT, ShapeKind};
 use super::tree::{Tokens, Window};
 use crate::record::{Record, what};
-use crate::report::{Name, no_number, number, quoted};
+use crate::report::{Name, no_number, number_of, quoted};
 use crate::schema;
 use crate::schema::Field;
 use scene::{Light, Material, Object, Rgb};
 use text::{Diagnostic, Findings, Severity, Span, counted, is_integer, parse_number};
 
-/// The number of numbers of the longest record.
-pub(super) const LONGEST: usize = {
-    let (mut longest, mut at) = (0, 0);
-    while at < ShapeKind::ALL.len() {
-        let numbers = ShapeKind::ALL[at].numbers();
-        if longest < numbers {
-            longest = numbers;
-        }
-        at += 1;
-    }
-    longest
-};
+/// The number of numbers of the longest objects: those with three directions.
+pub(super) const LONGEST: usize = ShapeKind::Box.numbers();
 
 /// Number of numbers of the smallest object: a word with fewer after it does not begin an object.
 pub(super) const LEAST_NUMBERS: usize = ShapeKind::Sphere.numbers();
@@ -192,10 +182,7 @@ impl<'a> Reader<'a> {
     fn wrong_lights(&mut self, count: Count, numbers: usize, run: &Run) {
         let each = LIGHT.numbers();
         let (whole, rest) = (numbers / each, numbers % each);
-        let place = match run.object {
-            Some(word) => format!("before {}", quoted(word.of(self.text))),
-            None => "before the text ends".to_owned(),
-        };
+        let place = before(self.text, run.object);
         let rest = match rest {
             0 => String::new(),
             rest => format!(" and {}", counted(rest, "number")),
@@ -318,19 +305,11 @@ impl<'a> Reader<'a> {
                 let Some(token) = self.token() else {
                     return;
                 };
-                let word = token.of(self.text);
+                if self.begins_object(self.at, token) {
+                    return;
+                }
                 let what = || what(name, field, component);
-                let value = match number(token, word, &mut self.report, what) {
-                    Ok(value) => value,
-                    Err(_) if self.begins_object(self.at, token) => return,
-                    Err(error) => {
-                        self.report.error(|| {
-                            let expected = field.allowed.words();
-                            no_number(Severity::Error, token, word, &what(), &expected, error)
-                        });
-                        f64::NAN
-                    }
-                };
+                let value = number_of(field, token, token.of(self.text), &mut self.report, what);
                 numbers.values[numbers.len] = value;
                 numbers.spans[numbers.len] = token;
                 numbers.len += 1;
@@ -358,10 +337,7 @@ impl<'a> Reader<'a> {
         self.report.error(|| {
             let what = what(record.name, field, component);
             let more = counted(due - have, "more number");
-            let place = match next {
-                Some(token) => format!("before {}", quoted(token.of(self.text))),
-                None => "before the text ends".to_owned(),
-            };
+            let place = before(self.text, next);
             let message = format!("{what}: missing; {more} expected {place}");
             Diagnostic::error(next.unwrap_or(end), message, field.allowed.words())
         });
@@ -402,6 +378,14 @@ impl<'a> Reader<'a> {
         let last = self.tokens.end().checked_sub(1);
         let last = last.and_then(|last| self.tokens.get(last));
         Span::at(last.map_or(0, Span::end))
+    }
+}
+
+/// Says before what something ends.
+fn before(text: &str, token: Option<Span>) -> String {
+    match token {
+        Some(token) => format!("before {}", quoted(token.of(text))),
+        None => "before the text ends".to_owned(),
     }
 }
 

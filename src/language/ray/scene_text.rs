@@ -6,7 +6,6 @@ use super::tree::comment_of_line;
 use super::view_comment::PLACES;
 use super::{Source, incremental, lower, memory_estimate, view};
 use crate::rendering::{self, Around};
-use crate::report::Name;
 use crate::schema::Field;
 use crate::view::Numbers;
 use crate::written::Since;
@@ -50,18 +49,15 @@ impl SceneText for Source {
     }
 
     fn name(&self, node: Node) -> String {
-        match node {
-            Node::Object(index) if index < self.origins.objects.len() => {
-                let kind = self.origins.objects[index].kind;
-                Name::Object(index, kind.keyword()).to_string()
-            }
-            _ => node.to_string(),
+        match self.origins.kind(node) {
+            Some(kind) => format!("{node} ({})", kind.keyword()),
+            None => node.to_string(),
         }
     }
 
     fn fields(&self, node: Node) -> Vec<FieldSpans> {
         let origins = &self.origins;
-        let tokens = &origins.numbers(&self.tree, node);
+        let tokens = &*self.tree.tokens.range(origins.tokens(node));
         match node {
             Node::View => origins.view.fields(),
             Node::Render => {
@@ -71,36 +67,21 @@ impl SceneText for Source {
             }
             Node::Ambient => distribute(tokens, AMBIENT.fields()),
             Node::Light(_) => distribute(tokens, LIGHT.fields()),
-            Node::Object(index) => origins
-                .objects
-                .get(index)
-                .map(|object| distribute(tokens, object.kind.fields()))
-                .unwrap_or_default(),
-            Node::Material(_) | Node::Texture(_) | Node::Background | Node::Environment => {
-                Vec::new()
-            }
+            _ => match (origins.kind(node), tokens) {
+                (Some(kind), [_, numbers @ ..]) => distribute(numbers, kind.fields()),
+                _ => Vec::new(),
+            },
         }
     }
 
     fn span(&self, node: Node) -> Span {
-        let (origins, tree) = (&self.origins, &self.tree);
-        let keyword = match node {
-            Node::View | Node::Render => {
-                let mut comments = origins.comments();
-                comments.find_map(|(of, comment)| (of == node).then_some(comment))
-            }
-            Node::Object(index) => origins
-                .objects
-                .get(index)
-                .and_then(|object| tree.tokens.get(object.token as usize)),
-            _ => None,
-        };
-        let numbers = origins.numbers(tree, node);
-        let first = keyword.or_else(|| numbers.first().copied());
-        first.map_or_else(
-            || Span::at(0),
-            |first| numbers.last().map_or(first, |&last| first.to(last)),
-        )
+        let comment = self.origins.comments().find(|(of, _)| *of == node);
+        let tokens = self.tree.tokens.range(self.origins.tokens(node));
+        match (comment, tokens.first(), tokens.last()) {
+            (Some((_, comment)), ..) => comment,
+            (None, Some(first), Some(last)) => first.to(*last),
+            _ => Span::at(0),
+        }
     }
 
     fn comment(&self, node: Node) -> Option<&str> {
