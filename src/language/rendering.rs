@@ -6,10 +6,10 @@ use std::sync::LazyLock;
 use super::field_spans::{FieldSpans, Implicit, ImplicitAttribute, Insertion, Piece, Wanted};
 use super::report::{did_you_mean, number_in_comment, quoted};
 use super::schema::{Field, Kind, Range};
-use super::view::{beginning, line_ending, line_from};
+use super::view::{beginning, line_ending, whole_lines};
 use super::words::Words;
 use scene::{RenderKey, Rendering, Values};
-use text::{Diagnostic, Edit, Findings, SKIPPED, Span, line_end, nearest_word, next_line};
+use text::{Diagnostic, Edit, Findings, SKIPPED, Span, nearest_word};
 
 /// The settings that texts may state, as fields in the order of the interface.
 static FIELDS: LazyLock<Vec<(RenderKey, Field)>> =
@@ -110,8 +110,7 @@ impl RenderPlace {
         let span = if is_only {
             around.of(text, self.whole)
         } else {
-            let before = text[..part.whole.start()].trim_end_matches([' ', '\t']);
-            Span::new(before.len(), part.whole.end())
+            with_blanks(text, part.whole)
         };
         Some(Edit {
             span,
@@ -133,22 +132,15 @@ impl Around {
     fn of(self, text: &str, whole: Span) -> Span {
         match self {
             Self::Lead(lead) => lead.to(whole),
-            Self::Line => {
-                let (start, end) = (line_from(text, whole.start()), line_end(text, whole.end()));
-                let before = Span::new(start, whole.start());
-                let behind = Span::new(whole.end(), end);
-                let is_blank = |span: Span| span.of(text).trim().is_empty();
-                if is_blank(before) && is_blank(behind) {
-                    Span::new(start, next_line(text, end))
-                } else {
-                    Span::new(
-                        text[..whole.start()].trim_end_matches([' ', '\t']).len(),
-                        whole.end(),
-                    )
-                }
-            }
+            Self::Line => whole_lines(text, whole).unwrap_or_else(|| with_blanks(text, whole)),
         }
     }
+}
+
+/// A span with the blanks before it.
+fn with_blanks(text: &str, span: Span) -> Span {
+    let before = text[..span.start()].trim_end_matches([' ', '\t']);
+    Span::new(before.len(), span.end())
 }
 
 /// Reads the first of these comments that states settings, each given with what follows its key. Warns

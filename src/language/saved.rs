@@ -7,10 +7,10 @@ use std::fmt::Write;
 use glam::DVec3;
 
 use super::SceneText;
-use super::view::{line_ending, line_from, spelled};
+use super::view::{line_ending, spelled, whole_lines};
 use super::words::Words;
 use scene::{Camera, Lens};
-use text::{Edit, Span, is_line_end, line_end, next_line, parse_number, rounded};
+use text::{Edit, Span, is_line_end, parse_number, rounded};
 
 /// What begins a saved view. Without the blank it is `view:`, the view itself.
 const KEYWORD: &str = "view ";
@@ -101,7 +101,7 @@ pub(super) fn edits<Source: SceneText + ?Sized>(
             text,
         }],
         (Some(view), None) => vec![Edit {
-            span: with_line(text, view.span),
+            span: whole_lines(text, view.span).unwrap_or(view.span),
             text: String::new(),
         }],
         (None, Some(comment)) => {
@@ -116,20 +116,6 @@ pub(super) fn edits<Source: SceneText + ?Sized>(
                 text: format!("{before}{comment}{end}"),
             }]
         }
-    }
-}
-
-/// The line of a comment that stands alone on it, otherwise only the comment.
-fn with_line(text: &str, comment: Span) -> Span {
-    let line = line_from(text, comment.start());
-    let around = [
-        &text[line..comment.start()],
-        &text[comment.end()..line_end(text, comment.end())],
-    ];
-    if around.iter().all(|part| part.trim().is_empty()) {
-        Span::new(line, next_line(text, comment.end()))
-    } else {
-        comment
     }
 }
 

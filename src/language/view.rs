@@ -2,7 +2,7 @@
 
 use super::field_spans::FieldSpans;
 use super::schema::{Field, Kind};
-use text::{Edit, line_end, line_start, next_line, parse_number, spell_like};
+use text::{Edit, Span, line_end, line_start, next_line, parse_number, spell_like};
 
 /// The numbers of the view's fields, one per component; for a choice, the index of the word.
 pub(super) type Numbers = Vec<f64>;
@@ -116,4 +116,13 @@ pub(super) fn beginning(text: &str) -> usize {
 /// line: it stays in front.
 pub(super) fn line_from(text: &str, at: usize) -> usize {
     line_start(text, at).max(beginning(text).min(at))
+}
+
+/// The lines of a span with their end, if nothing else is on them.
+pub(super) fn whole_lines(text: &str, span: Span) -> Option<Span> {
+    let start = line_from(text, span.start());
+    let before = &text[start..span.start()];
+    let behind = &text[span.end()..line_end(text, span.end())];
+    let is_alone = before.trim().is_empty() && behind.trim().is_empty();
+    is_alone.then(|| Span::new(start, next_line(text, span.end())))
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Source;
 use super::schema::{LIGHT, MATERIAL, SCHEMA, ShapeKind};
-use super::tree::comment_of_line;
+use super::tree::comments;
 use crate::engine::motion::{Moves, numbers_of};
 use crate::form::Form;
 use crate::schema::{Field, Kind};
@@ -12,7 +12,7 @@ use crate::spelling::rounded_off;
 use crate::structure::NewNode;
 use crate::view::{line_ending, line_from, spelled};
 use crate::{Addition, Node, Placement, SceneText, StructureEdits, StructureError};
-use text::{Edit, Span, next_line};
+use text::{Edit, Span};
 
 /// The kinds of things that can be added: solids, by their keywords, and a light.
 pub(super) const ADDITIONS: &[Addition] = &[
@@ -100,15 +100,9 @@ impl Source {
     /// A new text for a span, with the comments of the old one before it, each on its own line.
     fn with_comments(&self, span: Span, new: &str) -> String {
         let text = &*self.text;
-        let mut kept = Vec::new();
-        let mut line = span.start();
-        while line < span.end() {
-            let comment = comment_of_line(text, line).filter(|comment| comment.end() <= span.end());
-            kept.extend(comment.map(|comment| comment.of(text)));
-            line = next_line(text, line);
-        }
-        kept.push(new);
-        kept.join(line_ending(text))
+        let comments = comments(text, span).filter(|comment| comment.end() <= span.end());
+        let lines = comments.map(|comment| comment.of(text)).chain([new]);
+        lines.collect::<Vec<_>>().join(line_ending(text))
     }
 
     /// The object to lay a new one out like: one of the kind, otherwise any.

@@ -1,13 +1,14 @@
 //! The objects of long `.ray` texts, read in parallel blocks. Only regular texts are read this way:
 //! after the lights there are only objects, as many as declared, none with an error.
 
+use std::borrow::Cow;
 use std::ops::Range;
 use std::ptr;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::objects::{first_compared, known_material};
+use super::objects::{first_compared, numbered};
 use super::origins::ObjectPlace;
 use super::reader::{LEAST_NUMBERS, Reader};
 use super::schema::ShapeKind;
@@ -30,6 +31,13 @@ pub(super) struct Read {
     pub(super) report: Findings,
 }
 
+/// All objects of a text.
+pub(super) struct AllObjects {
+    pub(super) places: Arc<Vec<ObjectPlace>>,
+    pub(super) objects: Objects,
+    pub(super) materials: Materials,
+}
+
 impl Block {
     /// The block with a number that reading these objects would give, with their materials.
     pub(super) fn of<'o>(
@@ -45,11 +53,7 @@ impl Block {
             let at = match seen.iter().rev().find(same) {
                 Some(&(_, known)) if first_compared(&materials) <= known => known,
                 _ => {
-                    let known = known_material(&materials, material);
-                    let at = known.unwrap_or_else(|| {
-                        materials.push(material.clone());
-                        materials.len() - 1
-                    });
+                    let at = numbered(&mut materials, Cow::Borrowed(material));
                     if seen.len() == SEEN {
                         seen.remove(0);
                     }
@@ -78,24 +82,21 @@ pub(super) fn joined(blocks: impl IntoIterator<Item = Block>) -> (Objects, Mater
     (Objects::of_blocks(objects), Materials::of_blocks(materials))
 }
 
-/// Reads a text of several blocks. Returns a reader, the objects with their materials, and the place
-/// of their count, or the findings so far if the text must be read in order.
-pub(super) fn read<'a>(
-    text: &'a str,
-    tokens: &'a Tokens,
-    report: Findings,
-) -> Result<(Reader<'a>, (Objects, Materials), Span), Findings> {
+/// Reads a text of several blocks: what is before the objects, and the objects. `None` if the text must
+/// be read in order.
+pub(super) fn read<'a>(text: &'a str, tokens: &'a Tokens) -> Option<(Reader<'a>, AllObjects)> {
     // Threads do not pay off for small scenes.
     if tokens.len() <= BLOCK * (1 + LEAST_NUMBERS) {
-        return Err(report);
+        return None;
     }
-    let places = places(text, tokens);
+    let places = tokens
+        .words()
+        .filter_map(|(token, word)| place(text, token, word));
+    let places: Vec<_> = places.collect();
     if places.len() <= BLOCK {
-        return Err(report);
+        return None;
     }
-    let Some((mut reader, count)) = header(text, tokens, &places) else {
-        return Err(report);
-    };
+    let mut reader = header(text, tokens, &places)?;
     let numbers = (0..places.len().div_ceil(BLOCK)).into_par_iter();
     // Small tasks, so that a thread that finishes early can take over more.
     let blocks = numbers.with_max_len(4).map(|number| {
@@ -110,26 +111,19 @@ pub(super) fn read<'a>(
         };
         Some((block, read.report))
     });
-    let Some(blocks) = blocks.collect::<Option<Vec<_>>>() else {
-        return Err(report);
-    };
-    let found = std::mem::replace(&mut reader.report, report);
-    reader.report.append(found);
+    let blocks = blocks.collect::<Option<Vec<_>>>()?;
     let blocks = blocks.into_iter().map(|(block, report)| {
         reader.report.append(report);
         block
     });
     let (objects, materials) = joined(blocks);
     debug_assert_eq!(objects.len(), places.len(), "each keyword is an object");
-    reader.places = places;
-    Ok((reader, (objects, materials), count))
-}
-
-/// The places of all keywords, with the number of numbers of a complete object.
-fn places(text: &str, tokens: &Tokens) -> Vec<ObjectPlace> {
-    let words = tokens.words();
-    let places = words.filter_map(|(token, word)| place(text, token, word));
-    places.collect()
+    let read = AllObjects {
+        places: Arc::new(places),
+        objects,
+        materials,
+    };
+    Some((reader, read))
 }
 
 /// The place of a complete object, if its keyword is this token.
@@ -147,15 +141,16 @@ pub(super) fn header<'a>(
     text: &'a str,
     tokens: &'a Tokens,
     places: &[ObjectPlace],
-) -> Option<(Reader<'a>, Span)> {
+) -> Option<Reader<'a>> {
     let first = places.first()?.token as usize;
     // Whether a word begins an object depends on the numbers after it.
     let known = 0..first + 1 + LEAST_NUMBERS;
-    let mut reader = Reader::new(text, tokens, known, Findings::default());
-    let count = reader.header()?;
+    let mut reader = Reader::new(text, tokens, known);
+    reader.header();
+    let declared = reader.declared?.declared;
     let is_regular =
-        reader.report.errors() == 0 && reader.at == first && count.declared == places.len() as u64;
-    is_regular.then_some((reader, count.token))
+        reader.report.errors() == 0 && reader.at == first && declared == places.len() as u64;
+    is_regular.then_some(reader)
 }
 
 /// Reads objects of these tokens, with `before` objects before them, whose first block has the number
@@ -167,7 +162,7 @@ pub(super) fn objects(
     before: usize,
     block: usize,
 ) -> Option<Read> {
-    let mut reader = Reader::new(text, tokens, range, Findings::default());
+    let mut reader = Reader::new(text, tokens, range);
     (reader.before, reader.blocks_before) = (before, block);
     reader.objects.reserve(BLOCK);
     while let Some(token) = reader.token() {

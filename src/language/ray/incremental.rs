@@ -7,11 +7,10 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::blocks::{self, Block, Read};
-use super::lower::{self, ObjectsRead};
+use super::blocks::{self, AllObjects, Block, Read};
+use super::lower;
 use super::origins::{ObjectPlace, Origins};
 use super::tree::Tree;
-use super::view_comment::{find, find_rendering};
 use crate::written::{Replaced, numbers};
 use crate::{Before, Lowered};
 use scene::blocks::BLOCK;
@@ -40,12 +39,9 @@ pub(super) fn lower(
     }
     let change = Change::of(text, tree, origins, edits)?;
     let places = change.places(origins);
-    let mut report = Findings::default();
-    let view = find(text, &tree.tokens, &mut report);
-    let render = find_rendering(text, &tree.tokens, &mut report);
-    let (mut reader, count) = blocks::header(text, &tree.tokens, &places)?;
-    report.append(std::mem::take(&mut reader.report));
-    report.append(change.kept_findings(tree, &places, before.diagnostics)?);
+    let mut reader = blocks::header(text, &tree.tokens, &places)?;
+    let kept = change.kept_findings(tree, &places, before.diagnostics)?;
+    reader.report.append(kept);
     let known = before.scene;
     let (objects, materials) = if change.region.is_none() {
         (known.objects.clone(), known.materials.clone())
@@ -56,21 +52,21 @@ pub(super) fn lower(
         }
         let read = blocks::objects(text, &tree.tokens, tokens, change.old.start, 0)?;
         let made = replaced(known, change.old.clone(), &read);
-        report.append(read.report);
+        reader.report.append(read.report);
         made
     };
-    reader.report = report;
-    let read = ObjectsRead {
+    let read = AllObjects {
         places,
         objects,
         materials,
     };
-    let (origins, lowered) = lower::joined(tree, (view, render), (reader, count), read);
+    let (origins, lowered) = lower::joined(text, tree, reader, read);
     let found = &lowered.diagnostics;
     (found.len() == found.warnings()).then_some((origins, lowered))
 }
 
 /// What edits may have changed of the objects.
+#[derive(Default)]
 struct Change<'e> {
     edits: &'e [Replaced],
     /// The bytes of the text before in which objects may have changed; `None` if none has.
@@ -99,11 +95,7 @@ impl<'e> Change<'e> {
         let Some((one, last)) = of_objects.first().zip(of_objects.last()) else {
             return Some(Self {
                 edits,
-                region: None,
-                old: objects.len()..objects.len(),
-                from: None,
-                new: Vec::new(),
-                grown: 0,
+                ..Self::default()
             });
         };
         let grown = tokens.len() as isize - origins.tokens as isize;

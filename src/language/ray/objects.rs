@@ -1,5 +1,7 @@
 //! Reads the objects of a `.ray` text and checks their declared number.
 
+use std::borrow::Cow;
+
 use super::origins::ObjectPlace;
 use super::reader::{Count, LEAST_NUMBERS, Numbers, Reader, component, is_word};
 use super::schema::{MATERIAL, ShapeKind};
@@ -24,7 +26,8 @@ fn keywords() -> String {
 
 impl<'a> Reader<'a> {
     /// Reads objects to the end of the text and compares their number with the declared one.
-    pub(super) fn objects(&mut self, count: Option<Count>) {
+    pub(super) fn objects(&mut self) {
+        let count = self.declared;
         let left = self.tokens.end() - self.at;
         let declared = count.map_or(u64::MAX, |count| count.declared);
         let holds = left / (1 + LEAST_NUMBERS);
@@ -53,21 +56,20 @@ impl<'a> Reader<'a> {
                 self.surplus(token);
             }
         }
+        let Some(count) = count else {
+            return;
+        };
         let found = self.places.len() as u64;
-        if let Some(count) = count.filter(|count| count.declared < found) {
+        if count.declared < found {
             let more = match found - count.declared {
                 _ if self.is_beginning => "more objects follow".to_owned(),
                 1 => "1 more object follows".to_owned(),
                 more => format!("{more} more objects follow"),
             };
             self.miscounted(count, &more);
-        } else if let Some(count) =
-            count.filter(|count| found < count.declared && !lost && !self.is_cut())
-        {
-            let after = match self.places.len().checked_sub(1) {
-                Some(last) => format!("after {}", object_name(&self.places, last)),
-                None => "before any object".to_owned(),
-            };
+        } else if found < count.declared && !lost && !self.is_cut() {
+            let after = self.last().map(|last| format!("after {last}"));
+            let after = after.unwrap_or_else(|| "before any object".to_owned());
             self.miscounted(count, &format!("the text ends {after}"));
         }
     }
@@ -145,6 +147,12 @@ impl<'a> Reader<'a> {
         true
     }
 
+    /// The name of the last object.
+    fn last(&self) -> Option<Name> {
+        let last = self.places.last()?;
+        Some(Name::Object(self.places.len() - 1, last.kind.keyword()))
+    }
+
     /// The number of findings.
     fn findings(&self) -> usize {
         self.report.errors() + self.report.warnings()
@@ -197,13 +205,8 @@ impl<'a> Reader<'a> {
     /// Adds a material unless an equal one is among the last ones of its block; returns its number.
     fn material(&mut self, material: Material) -> u32 {
         let before = self.blocks_before + self.materials.len().saturating_sub(1);
-        let at = self.materials.last_mut().map_or(0, |materials| {
-            let known = known_material(materials, &material);
-            known.unwrap_or_else(|| {
-                materials.push(material);
-                materials.len() - 1
-            })
-        });
+        let materials = self.materials.last_mut();
+        let at = materials.map_or(0, |materials| numbered(materials, Cow::Owned(material)));
         (before * BLOCK + at) as u32
     }
 
@@ -255,12 +258,12 @@ impl<'a> Reader<'a> {
         }
         let surplus = self.at - from;
         let previous = self.places.last().map(|object| object.kind);
-        let is_cut = self.is_cut();
+        let (is_cut, last) = (self.is_cut(), self.last());
         self.report.error(|| {
             let least = if is_cut { "at least " } else { "" };
             let too_many = format!("{least}{} too many", counted(surplus, "number"));
-            let message = match self.places.len().checked_sub(1) {
-                Some(last) => format!("{}: {too_many}", object_name(&self.places, last)),
+            let message = match last {
+                Some(last) => format!("{last}: {too_many}"),
                 None => format!("nObjects: {too_many} after it"),
             };
             let diagnostic = Diagnostic::error(span, message, keywords());
@@ -299,23 +302,22 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The index of an equal material among the last ones of a block.
-pub(super) fn known_material(materials: &[Material], material: &Material) -> Option<usize> {
+/// The index of an equal material among the last ones of a block, to which it is added if there is none.
+pub(super) fn numbered(materials: &mut Vec<Material>, material: Cow<'_, Material>) -> usize {
     let first = first_compared(materials);
-    let known = materials[first..]
-        .iter()
-        .rposition(|known| known == material);
-    known.map(|known| first + known)
+    let mut known = materials[first..].iter();
+    match known.rposition(|known| *known == *material) {
+        Some(known) => first + known,
+        None => {
+            materials.push(material.into_owned());
+            materials.len() - 1
+        }
+    }
 }
 
 /// The first material of a block to compare a new one with.
 pub(super) fn first_compared(materials: &[Material]) -> usize {
     materials.len().saturating_sub(MOST_COMPARED)
-}
-
-/// The name of an object.
-fn object_name(places: &[ObjectPlace], index: usize) -> String {
-    Name::Object(index, places[index].kind.keyword()).to_string()
 }
 
 /// The material described by these numbers.

@@ -53,6 +53,8 @@ pub(super) struct Reader<'a> {
     pub(super) at: usize,
     pub(super) report: Findings,
     pub(super) origins: Origins,
+    /// The declared number of objects, if it is readable.
+    pub(super) declared: Option<Count>,
     /// The places of the objects.
     pub(super) places: Vec<ObjectPlace>,
     /// Number of objects before these tokens.
@@ -71,19 +73,15 @@ pub(super) struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     /// A reader for a range of a text's tokens.
-    pub(super) fn new(
-        text: &'a str,
-        tokens: &'a Tokens,
-        range: Range<usize>,
-        report: Findings,
-    ) -> Self {
+    pub(super) fn new(text: &'a str, tokens: &'a Tokens, range: Range<usize>) -> Self {
         Self {
             text,
             at: range.start,
             tokens: Window::new(tokens, range),
             is_beginning: false,
-            report,
+            report: Findings::default(),
             origins: Origins::default(),
+            declared: None,
             places: Vec::new(),
             before: 0,
             ambient: Rgb::ZERO,
@@ -95,8 +93,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads everything; returns the place of the number of objects.
-    pub(super) fn read(&mut self) -> Span {
+    /// Reads everything.
+    pub(super) fn read(&mut self) {
         if self.is_at_end() {
             self.report.error(|| {
                 Diagnostic::error(
@@ -109,32 +107,29 @@ impl<'a> Reader<'a> {
                      the number of objects, objects",
                 )
             });
-            return Span::at(0);
+            return;
         }
-        let count = self.header();
-        self.objects(count);
-        count.map_or_else(|| Span::at(0), |count| count.token)
+        self.header();
+        self.objects();
     }
 
-    /// Reads ambient light and lights; returns the number of objects, if readable. Stops at the
-    /// first object.
-    pub(super) fn header(&mut self) -> Option<Count> {
+    /// Reads ambient light, lights and the number of objects. Stops at the first object.
+    pub(super) fn header(&mut self) {
         let mut numbers = Numbers::default();
         let ambient = self.record(Name::Ambient, AMBIENT.fields(), &mut numbers);
         self.origins.ambient = ambient.values.len();
         if ambient.values.len() < AMBIENT.numbers() {
             self.short(&ambient, AMBIENT.fields());
             self.at += self.run(None).len;
-            return None;
+            return;
         }
         self.ambient = const { AMBIENT.at("colour") }.vector(ambient.values);
         let lights = self.count("nLights");
         let at_end = self.at == self.tokens.end();
         let lights_known = self.lights(lights);
-        if !lights_known || (lights.is_none() && at_end) {
-            return None;
+        if lights_known && !(lights.is_none() && at_end) {
+            self.declared = self.count("nObjects");
         }
-        self.count("nObjects")
     }
 
     /// Reads the lights; returns whether the number of objects follows where it should.
@@ -218,24 +213,22 @@ impl<'a> Reader<'a> {
     /// Reads a declared count; `None`, with an error, if there is none.
     fn count(&mut self, key: &str) -> Option<Count> {
         let expected = schema::Range::Count.words();
-        let Some(token) = self.token() else {
+        let next = self.token();
+        let Some(token) = next.filter(|&token| !self.begins_object(self.at, token)) else {
             let end = self.end();
-            if self.is_at_end() {
+            if !self.is_cut() {
                 self.report.error(|| {
-                    let message = format!("{key}: missing, the text ends here");
-                    Diagnostic::error(end, message, expected)
+                    let place = match next {
+                        Some(token) => format!(" before {}", quoted(token.of(self.text))),
+                        None => ", the text ends here".to_owned(),
+                    };
+                    let message = format!("{key}: missing{place}");
+                    Diagnostic::error(next.unwrap_or(end), message, expected)
                 });
             }
             return None;
         };
         let word = token.of(self.text);
-        if self.begins_object(self.at, token) {
-            self.report.error(|| {
-                let message = format!("{key}: missing before {}", quoted(word));
-                Diagnostic::error(token, message, expected)
-            });
-            return None;
-        }
         self.at += 1;
         let problem = match parse_number(word) {
             Ok(value) if schema::Range::Count.contains(value) && is_integer(word) => {

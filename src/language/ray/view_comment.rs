@@ -11,7 +11,6 @@ use super::tree::{self, Tokens, comment_of_line};
 use crate::camera::{CameraSpans, Pinhole, check, default_eye_and_target};
 use crate::field_spans::FieldSpans;
 use crate::record::what;
-use crate::rendering::{RenderPlace, first_comment};
 use crate::report::{Name, number_in_comment, quoted};
 use crate::schema::Kind;
 use crate::words::{Words, after_key};
@@ -193,17 +192,8 @@ pub(super) fn find(text: &str, tokens: &Tokens, report: &mut Findings) -> ViewCo
     found
 }
 
-/// Finds the first comment with render settings. Warns of those after it.
-pub(super) fn find_rendering(
-    text: &str,
-    tokens: &Tokens,
-    report: &mut Findings,
-) -> Option<RenderPlace> {
-    first_comment(text, keyed(text, tokens, tree::RENDER), report)
-}
-
 /// The comments with a key, and what follows it.
-fn keyed<'t>(
+pub(super) fn keyed<'t>(
     text: &'t str,
     tokens: &'t Tokens,
     key: &'static str,

@@ -27,7 +27,7 @@ impl Tree {
     /// Tokens and whole comments, in order.
     pub(crate) fn leaves(&self, text: &str) -> Vec<Span> {
         let mut leaves = self.tokens.range(0..self.tokens.len());
-        leaves.extend(comments(text));
+        leaves.extend(comments(text, Span::new(0, text.len())));
         leaves.sort_unstable();
         leaves
     }
@@ -71,11 +71,11 @@ fn begins_comment(bytes: &[u8]) -> bool {
     bytes.starts_with(b"//") || bytes.starts_with(br"\\")
 }
 
-/// The comments of a text.
-fn comments(text: &str) -> impl Iterator<Item = Span> {
-    let mut at = 0;
+/// The comments behind the start of a span, outside comments, and behind each start of a line in it.
+pub(super) fn comments(text: &str, span: Span) -> impl Iterator<Item = Span> {
+    let mut at = span.start();
     let lines = std::iter::from_fn(move || {
-        let start = (at < text.len()).then_some(at)?;
+        let start = (at < span.end()).then_some(at)?;
         at = next_line(text, at);
         Some(start)
     });
@@ -94,7 +94,9 @@ mod tests {
     }
 
     fn comments(text: &str) -> Vec<&str> {
-        super::comments(text).map(|span| span.of(text)).collect()
+        super::comments(text, Span::new(0, text.len()))
+            .map(|span| span.of(text))
+            .collect()
     }
 
     #[test]
