@@ -16,20 +16,10 @@ use super::tree::Tokens;
 use geometry::Shape;
 use scene::blocks::BLOCK;
 use scene::{Material, Materials, Object, Objects};
-use text::{Findings, Span};
+use text::Span;
 
-/// A block of objects with its materials, whose numbers start at that of its first object.
-pub(super) struct Block {
-    pub(super) materials: Arc<[Material]>,
-    pub(super) objects: Arc<[Object]>,
-}
-
-/// Objects that were read, and the materials of each block of them.
-pub(super) struct Read {
-    pub(super) materials: Vec<Vec<Material>>,
-    pub(super) objects: Vec<Object>,
-    pub(super) report: Findings,
-}
+/// A block of objects, and its materials, whose numbers start at that of its first object.
+pub(super) type Block = (Arc<[Object]>, Arc<[Material]>);
 
 /// All objects of a text.
 pub(super) struct AllObjects {
@@ -38,48 +28,34 @@ pub(super) struct AllObjects {
     pub(super) materials: Materials,
 }
 
-impl Block {
-    /// The block with a number that reading these objects would give, with their materials.
-    pub(super) fn of<'o>(
-        number: usize,
-        objects: impl Iterator<Item = (&'o Shape, &'o Material)>,
-    ) -> Self {
-        /// Number of materials found by address, which is faster than by comparing coefficients.
-        const SEEN: usize = 16;
-        let mut materials = Vec::new();
-        let mut seen: Vec<(&Material, usize)> = Vec::with_capacity(SEEN);
-        let objects = objects.map(|(shape, material)| {
-            let same = |&&(of, _): &&(&Material, usize)| ptr::eq(of, material);
-            let at = match seen.iter().rev().find(same) {
-                Some(&(_, known)) if first_compared(&materials) <= known => known,
-                _ => {
-                    let at = numbered(&mut materials, Cow::Borrowed(material));
-                    if seen.len() == SEEN {
-                        seen.remove(0);
-                    }
-                    seen.push((material, at));
-                    at
+/// The block with a number that reading these objects would give, with their materials.
+pub(super) fn block<'o>(
+    number: usize,
+    objects: impl Iterator<Item = (&'o Shape, &'o Material)>,
+) -> Block {
+    /// Number of materials found by address, which is faster than by comparing coefficients.
+    const SEEN: usize = 16;
+    let mut materials = Vec::new();
+    let mut seen: Vec<(&Material, usize)> = Vec::with_capacity(SEEN);
+    let objects = objects.map(|(shape, material)| {
+        let same = |&&(of, _): &&(&Material, usize)| ptr::eq(of, material);
+        let at = match seen.iter().rev().find(same) {
+            Some(&(_, known)) if first_compared(&materials) <= known => known,
+            _ => {
+                let at = numbered(&mut materials, Cow::Borrowed(material));
+                if seen.len() == SEEN {
+                    seen.remove(0);
                 }
-            };
-            Object {
-                shape: shape.clone(),
-                material: (number * BLOCK + at) as u32,
+                seen.push((material, at));
+                at
             }
-        });
-        Self {
-            objects: objects.collect(),
-            materials: materials.into(),
+        };
+        Object {
+            shape: shape.clone(),
+            material: (number * BLOCK + at) as u32,
         }
-    }
-}
-
-/// Joins blocks in order.
-pub(super) fn joined(blocks: impl IntoIterator<Item = Block>) -> (Objects, Materials) {
-    let lists = blocks
-        .into_iter()
-        .map(|block| (block.objects, block.materials));
-    let (objects, materials) = lists.unzip();
-    (Objects::of_blocks(objects), Materials::of_blocks(materials))
+    });
+    (objects.collect(), materials.into())
 }
 
 /// Reads a text of several blocks: what is before the objects, and the objects. `None` if the text must
@@ -105,24 +81,25 @@ pub(super) fn read<'a>(text: &'a str, tokens: &'a Tokens) -> Option<(Reader<'a>,
         let end = end.map_or(tokens.len(), |next| next.token as usize);
         let range = places[first].token as usize..end;
         let read = objects(text, tokens, range, first, number)?;
-        let block = Block {
-            materials: read.materials.into_iter().next()?.into(),
-            objects: read.objects.into(),
-        };
-        Some((block, read.report))
+        let materials = read.materials.into_iter().next()?;
+        Some(((read.objects.into(), materials.into()), read.report))
     });
     let blocks = blocks.collect::<Option<Vec<_>>>()?;
-    let blocks = blocks.into_iter().map(|(block, report)| {
+    let blocks = blocks.into_iter().map(|(block, report): (Block, _)| {
         reader.report.append(report);
         block
     });
-    let (objects, materials) = joined(blocks);
-    debug_assert_eq!(objects.len(), places.len(), "each keyword is an object");
+    let (objects, materials) = blocks.unzip();
     let read = AllObjects {
         places: Arc::new(places),
-        objects,
-        materials,
+        objects: Objects::of_blocks(objects),
+        materials: Materials::of_blocks(materials),
     };
+    debug_assert_eq!(
+        read.objects.len(),
+        read.places.len(),
+        "each keyword is an object"
+    );
     Some((reader, read))
 }
 
@@ -155,13 +132,13 @@ pub(super) fn header<'a>(
 
 /// Reads objects of these tokens, with `before` objects before them, whose first block has the number
 /// `block`; `None` if they are not regular.
-pub(super) fn objects(
-    text: &str,
-    tokens: &Tokens,
+pub(super) fn objects<'a>(
+    text: &'a str,
+    tokens: &'a Tokens,
     range: Range<usize>,
     before: usize,
     block: usize,
-) -> Option<Read> {
+) -> Option<Reader<'a>> {
     let mut reader = Reader::new(text, tokens, range);
     (reader.before, reader.blocks_before) = (before, block);
     reader.objects.reserve(BLOCK);
@@ -171,15 +148,5 @@ pub(super) fn objects(
             return None;
         }
     }
-    let Reader {
-        materials,
-        objects,
-        report,
-        ..
-    } = reader;
-    (report.errors() == 0).then_some(Read {
-        materials,
-        objects,
-        report,
-    })
+    (reader.report.errors() == 0).then_some(reader)
 }

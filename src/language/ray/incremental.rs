@@ -7,9 +7,10 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::blocks::{self, AllObjects, Block, Read};
+use super::blocks::{self, AllObjects};
 use super::lower;
 use super::origins::{ObjectPlace, Origins};
+use super::reader::Reader;
 use super::tree::Tree;
 use crate::written::{Replaced, numbers};
 use crate::{Before, Lowered};
@@ -215,7 +216,7 @@ fn numbers_in_place(text: &str, tree: &Tree, edit: &Replaced) -> Option<usize> {
 
 /// The objects and materials of a scene after some objects are replaced: the same as reading them
 /// all would give.
-fn replaced(scene: &Scene, old: Range<usize>, by: &Read) -> (Objects, Materials) {
+fn replaced(scene: &Scene, old: Range<usize>, by: &Reader<'_>) -> (Objects, Materials) {
     let known = &scene.objects;
     let count = known.len() - old.len() + by.objects.len();
     let object = |at: usize| match at.checked_sub(old.start) {
@@ -234,7 +235,7 @@ fn replaced(scene: &Scene, old: Range<usize>, by: &Read) -> (Objects, Materials)
     };
     let block = |number: usize| {
         let end = count.min((number + 1) * BLOCK);
-        Block::of(number, (number * BLOCK..end).map(object))
+        blocks::block(number, (number * BLOCK..end).map(object))
     };
     let first = old.start / BLOCK;
     // If the objects behind keep their numbers, so do their blocks.
@@ -248,17 +249,10 @@ fn replaced(scene: &Scene, old: Range<usize>, by: &Read) -> (Objects, Materials)
     } else {
         (first..new_end).into_par_iter().map(block).collect()
     };
-    let known = |range: Range<usize>| {
-        let lists = (
-            &known.blocks()[range.clone()],
-            &scene.materials.blocks()[range],
-        );
-        let pairs = lists.0.iter().zip(lists.1);
-        pairs.map(|(objects, materials)| Block {
-            objects: Arc::clone(objects),
-            materials: Arc::clone(materials),
-        })
-    };
-    let blocks = known(0..first).chain(made);
-    blocks::joined(blocks.chain(known(end..scene.objects.blocks().len())))
+    let (new_objects, new_materials): (Vec<_>, Vec<_>) = made.into_iter().unzip();
+    let mut objects = known.blocks().to_vec();
+    let mut materials = scene.materials.blocks().to_vec();
+    objects.splice(first..end, new_objects);
+    materials.splice(first..end, new_materials);
+    (Objects::of_blocks(objects), Materials::of_blocks(materials))
 }

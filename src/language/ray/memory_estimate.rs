@@ -36,15 +36,10 @@ pub(super) fn fits(text: &str, tree: &Tree) -> Result<(), OutOfMemory> {
 
 /// The memory needed by the objects of a text.
 fn of_objects(text: &str, tree: &Tree) -> Need {
-    let kinds = || {
-        tree.tokens
-            .words()
-            .filter_map(|(token, word)| Some((token, ShapeKind::of_word(word.of(text))?)))
-    };
+    let words = || tree.tokens.words();
+    let kinds = || words().filter_map(|(_, word)| ShapeKind::of_word(word.of(text)));
     let count = kinds().count();
-    let boxed = kinds()
-        .filter(|&(_, kind)| kind != ShapeKind::Sphere)
-        .count();
+    let boxed = kinds().filter(|&kind| kind != ShapeKind::Sphere).count();
     let places = 3 * size_of::<ObjectPlace>();
     let shapes =
         each(count as u64, places + size_of::<Object>()) + each(boxed as u64, size_of::<Affine>());

@@ -1,6 +1,7 @@
 //! The roles that the leaves of a `.ray` text play.
 
 use super::schema::{AMBIENT, LIGHT, ShapeKind};
+use super::tree::begins_comment;
 use crate::roles::{ANYWHERE, Role, Roles, role};
 use text::Span;
 
@@ -8,7 +9,7 @@ use text::Span;
 /// whether the text begins and ends where the whole one does.
 pub(super) fn roles(text: &str, leaves: &[Span], [at_start, at_end]: [bool; 2]) -> Roles {
     let mut roles = vec![ANYWHERE; leaves.len()];
-    let is_token = |leaf: &Span| !["//", r"\\"].iter().any(|m| leaf.of(text).starts_with(m));
+    let is_token = |leaf: &Span| !begins_comment(leaf.of(text).as_bytes());
     let tokens = || (0..).zip(leaves).filter(|(_, leaf)| is_token(leaf));
     let mut head = Vec::new();
     // The next number's index in its object, and the number of its shape's numbers.
@@ -35,12 +36,11 @@ pub(super) fn roles(text: &str, leaves: &[Span], [at_start, at_end]: [bool; 2]) 
             roles[at] = role_of_head(number, head.len());
         }
     }
-    let unknown = if is_cut {
-        head.last().map_or(0, |at| at + 1)
-    } else {
-        0
-    };
-    Roles { roles, unknown }
+    let unknown = head.last().filter(|_| is_cut);
+    Roles {
+        roles,
+        unknown: unknown.map_or(0, |at| at + 1),
+    }
 }
 
 /// The role of a number before the first object, of so many.

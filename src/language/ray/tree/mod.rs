@@ -67,7 +67,7 @@ fn has_key(text: &str, comment: Span) -> bool {
 }
 
 /// Whether bytes outside a comment begin one.
-fn begins_comment(bytes: &[u8]) -> bool {
+pub(super) fn begins_comment(bytes: &[u8]) -> bool {
     bytes.starts_with(b"//") || bytes.starts_with(br"\\")
 }
 
