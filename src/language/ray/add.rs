@@ -107,16 +107,11 @@ impl Source {
 
     /// The object to lay a new one out like: one of the kind, otherwise any.
     fn like(&self, kind: ShapeKind, after: Node) -> Option<Node> {
-        let objects = &self.origins.objects;
-        let is_kind = |index: usize| objects.get(index).is_some_and(|object| object.kind == kind);
-        match after {
-            Node::Object(index) if is_kind(index) => Some(after),
-            _ => {
-                let same = (0..objects.len()).rfind(|&index| is_kind(index));
-                same.or_else(|| objects.len().checked_sub(1))
-                    .map(Node::Object)
-            }
-        }
+        let is_kind = |node: &Node| self.origins.kind(*node) == Some(kind);
+        let mut all = (0..self.origins.objects.len()).map(Node::Object);
+        let same = Some(after).filter(is_kind);
+        let same = same.or_else(|| all.clone().rfind(is_kind));
+        same.or_else(|| all.next_back())
     }
 
     /// A thing's text. Its fields share lines as they do in its model and in the last objects; on
@@ -134,11 +129,7 @@ impl Source {
         let start = line_from(text, own.start());
         let indent = &text[start..own.start()];
         let indent = if indent.trim().is_empty() { indent } else { "" };
-        let joints = if is_long {
-            self.joints(like)
-        } else {
-            Vec::new()
-        };
+        let joints = is_long.then(|| self.joints(like));
         let mut laid_out = format!("{indent}{keyword}");
         let mut before = (!keyword.is_empty()).then_some(KEYWORD);
         let mut rest = literals;
@@ -146,7 +137,11 @@ impl Source {
             let (own, behind) = rest.split_at(field.kind.components());
             rest = behind;
             match before {
-                Some(before) if is_long && breaks(&joints, before, field) => {
+                Some(before)
+                    if joints
+                        .as_ref()
+                        .is_some_and(|all| breaks(all, before, field)) =>
+                {
                     laid_out.push_str(line_ending(text));
                     laid_out.push_str(indent);
                 }

@@ -58,8 +58,8 @@ pub(super) fn block<'o>(
     (objects.collect(), materials.into())
 }
 
-/// Reads a text of several blocks: what is before the objects, and the objects. `None` if the text must
-/// be read in order.
+/// Reads a text of several blocks: what is before the objects, and the objects. `None` if the text
+/// must be read in order.
 pub(super) fn read<'a>(text: &'a str, tokens: &'a Tokens) -> Option<(Reader<'a>, AllObjects)> {
     // Threads do not pay off for small scenes.
     if tokens.len() <= BLOCK * (1 + LEAST_NUMBERS) {

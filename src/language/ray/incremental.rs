@@ -11,7 +11,7 @@ use super::blocks::{self, AllObjects};
 use super::lower;
 use super::origins::{ObjectPlace, Origins};
 use super::reader::Reader;
-use super::tree::Tree;
+use super::tree::Tokens;
 use crate::written::{Replaced, numbers};
 use crate::{Before, Lowered};
 use scene::blocks::BLOCK;
@@ -27,7 +27,7 @@ const MANY: usize = 4;
 /// Lowers a text after edits.
 pub(super) fn lower(
     text: &str,
-    tree: &Tree,
+    tree: &Tokens,
     origins: &Origins,
     before: &Before<'_>,
     edits: &[Replaced],
@@ -40,7 +40,7 @@ pub(super) fn lower(
     }
     let change = Change::of(text, tree, origins, edits)?;
     let places = change.places(origins);
-    let mut reader = blocks::header(text, &tree.tokens, &places)?;
+    let mut reader = blocks::header(text, tree, &places)?;
     let kept = change.kept_findings(tree, &places, before.diagnostics)?;
     reader.report.append(kept);
     let known = before.scene;
@@ -51,7 +51,7 @@ pub(super) fn lower(
         if MOST < tokens.len() {
             return None;
         }
-        let read = blocks::objects(text, &tree.tokens, tokens, change.old.start, 0)?;
+        let read = blocks::objects(text, tree, tokens, change.old.start, 0)?;
         let made = replaced(known, change.old.clone(), &read);
         reader.report.append(read.report);
         made
@@ -85,8 +85,8 @@ struct Change<'e> {
 impl<'e> Change<'e> {
     /// Finds the objects in the lines of the edits. Tokens in lines before and behind them are as
     /// before.
-    fn of(text: &str, tree: &Tree, origins: &Origins, edits: &'e [Replaced]) -> Option<Self> {
-        let (tokens, objects) = (&tree.tokens, &origins.objects);
+    fn of(text: &str, tree: &Tokens, origins: &Origins, edits: &'e [Replaced]) -> Option<Self> {
+        let objects = &origins.objects;
         let first = objects.first()?.token as usize;
         let in_header = edits.iter().take_while(|edit| {
             let token = numbers_in_place(text, tree, edit);
@@ -99,21 +99,21 @@ impl<'e> Change<'e> {
                 ..Self::default()
             });
         };
-        let grown = tokens.len() as isize - origins.tokens as isize;
+        let grown = tree.len() as isize - origins.tokens as isize;
         let line = line_start(text, one.new.start());
-        let before = tokens.partition_point(|token| token.start() < line);
+        let before = tree.partition_point(|token| token.start() < line);
         let before = objects.partition_point(|object| (object.token as usize) < before);
         let line = next_line(text, last.new.end());
-        let behind = tokens.partition_point(|token| token.start() < line) as isize - grown;
+        let behind = tree.partition_point(|token| token.start() < line) as isize - grown;
         let end = objects.partition_point(|object| (object.token as isize) < behind);
         // The last object that begins before these lines may end in them.
         let old = before.saturating_sub(1)..end;
         let from = (0 < before).then(|| objects[old.start].token as usize);
         let end = match objects.get(end) {
             Some(object) => (object.token as isize + grown) as usize,
-            None => tokens.len(),
+            None => tree.len(),
         };
-        let words = tokens.words_from(from.unwrap_or(0));
+        let words = tree.words_from(from.unwrap_or(0));
         let words = words.take_while(|&(token, _)| token < end);
         let read = words.filter_map(|(token, word)| blocks::place(text, token, word));
         (old.start <= old.end).then(|| Self {
@@ -143,10 +143,10 @@ impl<'e> Change<'e> {
     }
 
     /// The tokens that are read again, given the places of all objects.
-    fn tokens(&self, tree: &Tree, places: &[ObjectPlace]) -> Range<usize> {
+    fn tokens(&self, tree: &Tokens, places: &[ObjectPlace]) -> Range<usize> {
         let token = |object: usize| {
             let place = places.get(object);
-            place.map_or(tree.tokens.len(), |place| place.token as usize)
+            place.map_or(tree.len(), |place| place.token as usize)
         };
         let from = self.from.unwrap_or_else(|| token(self.old.start));
         from..token(self.old.start + self.new.len())
@@ -156,7 +156,7 @@ impl<'e> Change<'e> {
     /// other numbers.
     fn kept_findings(
         &self,
-        tree: &Tree,
+        tree: &Tokens,
         places: &[ObjectPlace],
         before: &Findings,
     ) -> Option<Findings> {
@@ -171,8 +171,8 @@ impl<'e> Change<'e> {
             }
             let span = Span::new(self.moved(start), self.moved(found.span.end()));
             // Findings about objects are reported at one of their tokens.
-            let token = (tree.tokens).partition_point(|token| token.start() < span.start());
-            let place = tree.tokens.get(token);
+            let token = tree.partition_point(|token| token.start() < span.start());
+            let place = tree.get(token);
             let is_token = place.is_some_and(|place| place.start() == span.start());
             if !is_token || token < first || read.contains(&token) {
                 continue;
@@ -198,7 +198,7 @@ impl<'e> Change<'e> {
 }
 
 /// If an edit replaced numbers by as many, between white space, the last one's token.
-fn numbers_in_place(text: &str, tree: &Tree, edit: &Replaced) -> Option<usize> {
+fn numbers_in_place(text: &str, tree: &Tokens, edit: &Replaced) -> Option<usize> {
     let Replaced {
         new,
         numbers: count,
@@ -207,10 +207,10 @@ fn numbers_in_place(text: &str, tree: &Tree, edit: &Replaced) -> Option<usize> {
     if count == 0 || numbers(new.of(text)) != count {
         return None;
     }
-    let first = (tree.tokens).partition_point(|token| token.start() < new.start());
+    let first = tree.partition_point(|token| token.start() < new.start());
     let last = first + count - 1;
-    let is_start = tree.tokens.get(first)?.start() == new.start();
-    let is_end = tree.tokens.get(last)?.end() == new.end();
+    let is_start = tree.get(first)?.start() == new.start();
+    let is_end = tree.get(last)?.end() == new.end();
     (is_start && is_end).then_some(last)
 }
 

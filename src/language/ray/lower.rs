@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::blocks::{self, AllObjects};
 use super::origins::Origins;
 use super::reader::{Reader, is_word};
-use super::tree::{RENDER, Tokens, Tree};
+use super::tree::{RENDER, Tokens};
 use super::view_comment::{find, keyed};
 use crate::Lowered;
 use crate::rendering::first_comment;
@@ -13,26 +13,26 @@ use scene::{Materials, Scene, Setting, bounds};
 use text::{Diagnostic, Findings};
 
 /// Lowers a text.
-pub(super) fn lower(text: &str, tree: &Tree) -> (Origins, Lowered) {
-    let read = blocks::read(text, &tree.tokens);
-    let (reader, read) = read.unwrap_or_else(|| in_order(text, &tree.tokens));
-    joined(text, tree, reader, read)
+pub(super) fn lower(text: &str, tokens: &Tokens) -> (Origins, Lowered) {
+    let read = blocks::read(text, tokens);
+    let (reader, read) = read.unwrap_or_else(|| in_order(text, tokens));
+    joined(text, tokens, reader, read)
 }
 
 /// Lowers a text that need not be regular.
 #[cfg(test)]
-pub(super) fn lower_in_order(text: &str, tree: &Tree) -> (Origins, Lowered) {
-    let (reader, read) = in_order(text, &tree.tokens);
-    joined(text, tree, reader, read)
+pub(super) fn lower_in_order(text: &str, tokens: &Tokens) -> (Origins, Lowered) {
+    let (reader, read) = in_order(text, tokens);
+    joined(text, tokens, reader, read)
 }
 
 /// Returns the errors of every text that begins with these tokens.
-pub(super) fn errors_of_beginning(text: &str, tree: &Tree) -> Findings {
+pub(super) fn errors_of_beginning(text: &str, tokens: &Tokens) -> Findings {
     /// Longer than any word of the language.
     const LONGEST_WORD: usize = 1 << 10;
     // The last token may be incomplete.
-    let whole = tree.tokens.len().saturating_sub(1);
-    if let Some(last) = tree.tokens.get(whole)
+    let whole = tokens.len().saturating_sub(1);
+    if let Some(last) = tokens.get(whole)
         && LONGEST_WORD < last.len()
         && is_word(last.of(text))
     {
@@ -43,7 +43,7 @@ pub(super) fn errors_of_beginning(text: &str, tree: &Tree) -> Findings {
         });
         return report;
     }
-    let mut reader = Reader::new(text, &tree.tokens, 0..whole);
+    let mut reader = Reader::new(text, tokens, 0..whole);
     reader.is_beginning = true;
     reader.read();
     reader.report
@@ -67,7 +67,7 @@ fn in_order<'a>(text: &'a str, tokens: &'a Tokens) -> (Reader<'a>, AllObjects) {
 /// Joins what the comments, the header and the objects of a text mean.
 pub(super) fn joined(
     text: &str,
-    tree: &Tree,
+    tokens: &Tokens,
     mut reader: Reader<'_>,
     read: AllObjects,
 ) -> (Origins, Lowered) {
@@ -77,13 +77,13 @@ pub(super) fn joined(
         materials,
     } = read;
     let mut report = Findings::default();
-    let view = find(text, &tree.tokens, &mut report);
-    let render = first_comment(text, keyed(text, &tree.tokens, RENDER), &mut report);
+    let view = find(text, tokens, &mut report);
+    let render = first_comment(text, keyed(text, tokens, RENDER), &mut report);
     report.append(reader.report);
     reader.origins.view = view;
     reader.origins.render = render;
     reader.origins.objects = places;
-    reader.origins.tokens = tree.tokens.len();
+    reader.origins.tokens = tokens.len();
     // A view with both eye and target can be checked even if not all objects are known.
     let judged = report.errors() == 0 || view.has_eye_and_target();
     let camera = judged.then(|| {

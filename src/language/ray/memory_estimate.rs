@@ -6,7 +6,7 @@ use super::blocks;
 use super::origins::ObjectPlace;
 use super::reader::LEAST_NUMBERS;
 use super::schema::ShapeKind;
-use super::tree::Tree;
+use super::tree::Tokens;
 use crate::memory_estimate::{Counts, each};
 use geometry::Affine;
 use memory::{Need, OutOfMemory, megabytes};
@@ -28,15 +28,15 @@ pub(crate) fn tree_bytes(counts: &Counts) -> u64 {
 }
 
 /// Fails if the tree's scene does not fit into memory.
-pub(super) fn fits(text: &str, tree: &Tree) -> Result<(), OutOfMemory> {
-    let objects = tree.tokens.len() / (1 + LEAST_NUMBERS);
+pub(super) fn fits(text: &str, tree: &Tokens) -> Result<(), OutOfMemory> {
+    let objects = tree.len() / (1 + LEAST_NUMBERS);
     let most = each(objects as u64, OBJECT + 3 * size_of::<Material>());
     memory::check(most, || of_objects(text, tree))
 }
 
 /// The memory needed by the objects of a text.
-fn of_objects(text: &str, tree: &Tree) -> Need {
-    let words = || tree.tokens.words();
+fn of_objects(text: &str, tree: &Tokens) -> Need {
+    let words = || tree.words();
     let kinds = || words().filter_map(|(_, word)| ShapeKind::of_word(word.of(text)));
     let count = kinds().count();
     let boxed = kinds().filter(|&kind| kind != ShapeKind::Sphere).count();
@@ -49,7 +49,7 @@ fn of_objects(text: &str, tree: &Tree) -> Need {
         None => each(count as u64, size_of::<Object>()),
     };
     // A text that is mostly something other than objects is described by its size.
-    let most_is_objects = tree.tokens.len() <= count * 10 * LEAST_NUMBERS;
+    let most_is_objects = tree.len() <= count * 10 * LEAST_NUMBERS;
     Need {
         what: if most_is_objects {
             counted(count, "object")
@@ -61,16 +61,16 @@ fn of_objects(text: &str, tree: &Tree) -> Need {
 }
 
 /// Estimates the number of materials from some blocks of objects; `None` if one is not regular.
-fn materials(text: &str, tree: &Tree, count: usize) -> Option<usize> {
+fn materials(text: &str, tree: &Tokens, count: usize) -> Option<usize> {
     let mut found = 0;
     let mut objects = 0;
     for sample in 0..SAMPLED {
-        let from = tree.tokens.len() / SAMPLED * sample;
-        let spans = tree.tokens.range(from..from + BLOCK * (1 + LEAST_NUMBERS));
+        let from = tree.len() / SAMPLED * sample;
+        let spans = tree.range(from..from + BLOCK * (1 + LEAST_NUMBERS));
         let begins = |span: &Span| ShapeKind::of_word(span.of(text)).is_some();
         let first = spans.iter().position(begins)?;
         let end = spans.iter().rposition(begins)?;
-        let block = blocks::objects(text, &tree.tokens, from + first..from + end, 0, 0)?;
+        let block = blocks::objects(text, tree, from + first..from + end, 0, 0)?;
         found += block.materials.iter().map(Vec::len).sum::<usize>();
         objects += block.objects.len();
     }

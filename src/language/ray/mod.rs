@@ -25,13 +25,13 @@ mod write;
 use super::written::Written;
 use origins::Origins;
 use text::Findings;
-use tree::Tree;
+use tree::Tokens;
 
 pub(super) use memory_estimate::tree_bytes;
 pub(super) use write::write;
 
 /// A `.ray` text.
-pub(super) type Source = Written<Tree, Origins>;
+pub(super) type Source = Written<Tokens, Origins>;
 
 /// Whether no leaf crosses a line end.
 pub(super) const LEAVES_KEEP_TO_LINES: bool = true;

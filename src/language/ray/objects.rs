@@ -266,16 +266,12 @@ impl<'a> Reader<'a> {
                 Some(last) => format!("{last}: {too_many}"),
                 None => format!("nObjects: {too_many} after it"),
             };
-            let diagnostic = Diagnostic::error(span, message, keywords());
-            match previous {
-                _ if LEAST_NUMBERS <= surplus => {
-                    diagnostic.with_hint("is the next object's type missing?")
-                }
-                Some(kind) => diagnostic.with_hint(takes(kind)),
-                None => {
-                    diagnostic.with_hint("the first object's type follows the number of objects")
-                }
-            }
+            let hint = match previous {
+                _ if LEAST_NUMBERS <= surplus => "is the next object's type missing?".to_owned(),
+                Some(kind) => takes(kind),
+                None => "the first object's type follows the number of objects".to_owned(),
+            };
+            Diagnostic::error(span, message, keywords()).with_hint(hint)
         });
     }
 
@@ -302,7 +298,8 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The index of an equal material among the last ones of a block, to which it is added if there is none.
+/// The index of an equal material among the last ones of a block, to which it is added if there is
+/// none.
 pub(super) fn numbered(materials: &mut Vec<Material>, material: Cow<'_, Material>) -> usize {
     let first = first_compared(materials);
     let mut known = materials[first..].iter();

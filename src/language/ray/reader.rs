@@ -95,7 +95,7 @@ impl<'a> Reader<'a> {
 
     /// Reads everything.
     pub(super) fn read(&mut self) {
-        if self.is_at_end() {
+        if self.at == self.tokens.end() && !self.is_beginning {
             self.report.error(|| {
                 Diagnostic::error(
                     Span::at(0),
@@ -356,11 +356,6 @@ impl<'a> Reader<'a> {
         self.tokens.get(self.at)
     }
 
-    /// Whether this is the end of the text.
-    pub(super) fn is_at_end(&self) -> bool {
-        self.at == self.tokens.end() && !self.is_beginning
-    }
-
     /// Whether the tokens end here but the text goes on.
     pub(super) fn is_cut(&self) -> bool {
         self.at == self.tokens.end() && self.is_beginning
@@ -392,13 +387,9 @@ pub(super) fn component(
     fields: impl Iterator<Item = &'static Field>,
     index: usize,
 ) -> Option<(&'static Field, &'static str)> {
-    fields
-        .flat_map(|field| {
-            field
-                .kind
-                .component_names()
-                .iter()
-                .map(move |&name| (field, name))
-        })
-        .nth(index)
+    let mut components = fields.flat_map(|field| {
+        let names = field.kind.component_names().iter();
+        names.map(move |&name| (field, name))
+    });
+    components.nth(index)
 }

@@ -57,7 +57,7 @@ impl SceneText for Source {
 
     fn fields(&self, node: Node) -> Vec<FieldSpans> {
         let origins = &self.origins;
-        let tokens = &*self.tree.tokens.range(origins.tokens(node));
+        let tokens = &*self.tree.range(origins.tokens(node));
         match node {
             Node::View => origins.view.fields(),
             Node::Render => {
@@ -76,7 +76,7 @@ impl SceneText for Source {
 
     fn span(&self, node: Node) -> Span {
         let comment = self.origins.comments().find(|(of, _)| *of == node);
-        let tokens = self.tree.tokens.range(self.origins.tokens(node));
+        let tokens = self.tree.range(self.origins.tokens(node));
         match (comment, tokens.first(), tokens.last()) {
             (Some((_, comment)), ..) => comment,
             (None, Some(first), Some(last)) => first.to(*last),
@@ -98,13 +98,8 @@ impl SceneText for Source {
         if let Some(node) = comment(&holds) {
             return Some(node);
         }
-        let from = tree
-            .tokens
-            .partition_point(|token| token.end() < span.start());
-        let touches = |&at: &usize| {
-            let token = tree.tokens.get(at);
-            token.is_some_and(|token| token.touches(span))
-        };
+        let from = tree.partition_point(|token| token.end() < span.start());
+        let touches = |&at: &usize| tree.get(at).is_some_and(|token| token.touches(span));
         let mut touched = (from..).take_while(touches);
         touched
             .find_map(|at| origins.node_of_token(at))
@@ -175,10 +170,8 @@ impl Source {
         }
         let behind = |from: usize| {
             let comment = comment_of_line(text, from)?;
-            let before = tree
-                .tokens
-                .partition_point(|token| token.end() <= comment.start());
-            let token = tree.tokens.get(before.checked_sub(1)?)?;
+            let before = tree.partition_point(|token| token.end() <= comment.start());
+            let token = tree.get(before.checked_sub(1)?)?;
             let follows = own.start() <= token.start() && token.end() <= own.end();
             let has_meaning = self.origins.comments().any(|(_, of)| of == comment);
             let content = content_of(text, comment);

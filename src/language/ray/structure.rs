@@ -97,7 +97,7 @@ impl StructureEdits for Source {
     }
 
     fn recount(&self) -> Vec<Edit> {
-        let (text, tokens) = (&*self.text, &self.tree.tokens);
+        let (text, tokens) = (&*self.text, &self.tree);
         let is_object = |(_, word): &(usize, Span)| ShapeKind::of_word(word.of(text)).is_some();
         let objects: Vec<_> = tokens.words().filter(is_object).collect();
         let first = objects.first().map(|(first, _)| *first);
@@ -234,7 +234,7 @@ impl Source {
             _ => first + count,
         };
         Edit {
-            span: self.tree.tokens.get(token).unwrap_or_default(),
+            span: self.tree.get(token).unwrap_or_default(),
             text: number.to_string(),
         }
     }
@@ -247,7 +247,7 @@ impl Source {
             Block::Lines(block) => lines_after(&self.text, block, &adapted(copies, &self.text)),
             // On a shared line, a comment would hide what follows.
             Block::Part(own) => {
-                let tokens = tree::parse(copies).tokens;
+                let tokens = tree::parse(copies);
                 let words = tokens.range(0..tokens.len());
                 let words: Vec<_> = words.iter().map(|word| word.of(copies)).collect();
                 Edit {
@@ -336,7 +336,7 @@ fn ordered(source: &Source, nodes: &[Node]) -> Result<BTreeSet<Node>, StructureE
 
 /// Splits a copied text into lights and objects, each with their number.
 fn split(text: &str) -> Result<[(String, usize); 2], StructureError> {
-    let tokens = tree::parse(text).tokens;
+    let tokens = tree::parse(text);
     let all = tokens.range(0..tokens.len());
     let is_keyword = |token: &Span| ShapeKind::of_word(token.of(text)).is_some();
     let objects = all.iter().filter(|token| is_keyword(token)).count();

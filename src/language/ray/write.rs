@@ -78,7 +78,7 @@ fn lights(text: &mut String, scene: &Scene, losses: &mut Losses<'_>) {
             continue;
         };
         count += 1;
-        one_light(&mut written, position, colour);
+        groups(&mut written, &[&position.to_array(), &colour.to_array()]);
         if let Some(label) = losses.label(Of::Light(index)) {
             let _ = write!(written, "  // {}", label.trim());
         }
@@ -87,14 +87,11 @@ fn lights(text: &mut String, scene: &Scene, losses: &mut Losses<'_>) {
     if count == 0 {
         // At least one is required.
         count = 1;
-        one_light(&mut written, scene.camera.eye, Rgb::ZERO);
+        let eye = scene.camera.eye.to_array();
+        groups(&mut written, &[&eye, &Rgb::ZERO.to_array()]);
         written.push('\n');
     }
     let _ = writeln!(text, "{count}  // lights: position, colour\n{written}");
-}
-
-fn one_light(text: &mut String, position: DVec3, colour: Rgb) {
-    groups(text, &[&position.to_array(), &colour.to_array()]);
 }
 
 /// The position and colour of a light; `None` for ambient light.

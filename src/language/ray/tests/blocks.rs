@@ -74,7 +74,7 @@ fn a_changed_number_reads_only_its_block_again() {
     let (mut source, mut lowered) = read(&format!("// view: eye 0 0 9 target 0 0 0\n{text}"));
     for (number, literal) in [(900, "0.25"), (30_000, "1e-1"), (500, "+7")] {
         let is_number = |token: &Span| token.of(&source.text).starts_with('0');
-        let spans = source.tree.tokens.range(number..number + 40);
+        let spans = source.tree.range(number..number + 40);
         let old = spans.into_iter().find(is_number).expect("a number");
         put(&mut source, old, literal);
         let known = before(&lowered).expect("a scene without errors");
@@ -334,7 +334,7 @@ proptest! {
         let (mut source, mut lowered) =
             read(&format!("{view}{}{behind}", text(BLOCK + 70, BLOCK + 70, 400)));
         for (place, more, literal) in edits {
-            let tokens = &source.tree.tokens;
+            let tokens = &source.tree;
             let token = place.index(tokens.len());
             let last = tokens.get(tokens.len().min(token + more + 1) - 1);
             let old = tokens.get(token).expect("a token").to(last.expect("a token"));

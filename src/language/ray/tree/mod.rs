@@ -1,4 +1,5 @@
-//! The tree of a `.ray` text: tokens separated by white space, and comments.
+//! The tree of a `.ray` text: tokens separated by white space. Comments are found in the text on
+//! demand.
 
 mod scan;
 mod tokens;
@@ -11,29 +12,22 @@ use text::{Span, line_end, next_line};
 pub(super) use tokens::Tokens;
 pub(super) use window::Window;
 
-/// The tokens of a text. Comments are found in the text on demand.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Tree {
-    /// Words and numbers, and the places of comments with a key.
-    pub tokens: Tokens,
-}
-
 /// Splits a text into tokens. White space is ASCII's, the no-break space and the byte order mark.
-pub(super) fn parse(text: &str) -> Tree {
+pub(super) fn parse(text: &str) -> Tokens {
     scan::scan(text, scan::PIECE)
 }
 
-impl Tree {
+impl Tokens {
     /// Tokens and whole comments, in order.
     pub(crate) fn leaves(&self, text: &str) -> Vec<Span> {
-        let mut leaves = self.tokens.range(0..self.tokens.len());
+        let mut leaves = self.range(0..self.len());
         leaves.extend(comments(text, Span::new(0, text.len())));
         leaves.sort_unstable();
         leaves
     }
 }
 
-impl Parse for Tree {
+impl Parse for Tokens {
     fn parse(text: &str) -> Self {
         parse(text)
     }
@@ -88,7 +82,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn tokens(text: &str) -> Vec<&str> {
-        let tokens = parse(text).tokens;
+        let tokens = parse(text);
         let spans = tokens.range(0..tokens.len());
         spans.iter().map(|span| span.of(text)).collect()
     }

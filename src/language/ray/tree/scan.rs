@@ -5,7 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::tokens::{TokenBlock, Tokens};
-use super::{Tree, begins_comment, has_key};
+use super::{begins_comment, has_key};
 use crate::words::white_space;
 use text::{Span, first_byte, is_line_end};
 
@@ -16,15 +16,13 @@ pub(super) const PIECE: usize = 1 << 16;
 const BLOCK: usize = 64;
 
 /// Reads a text in pieces of about `piece` bytes.
-pub(super) fn scan(text: &str, piece: usize) -> Tree {
-    Tree {
-        tokens: Tokens::of(read(text, 0..text.len(), piece)),
-    }
+pub(super) fn scan(text: &str, piece: usize) -> Tokens {
+    Tokens::of(read(text, 0..text.len(), piece))
 }
 
 /// Updates the tree after edits in text order, each of which replaced the first span, of the text
 /// before all of them, by the second, of the text after all of them.
-pub(super) fn follow(tree: &mut Tree, text: &str, edits: &[[Span; 2]], piece: usize) {
+pub(super) fn follow(tokens: &mut Tokens, text: &str, edits: &[[Span; 2]], piece: usize) {
     let growth = |[old, changed]: [Span; 2]| changed.len() as isize - old.len() as isize;
     // What follows is given in the text after the edits so far, which up to the next one is `text`.
     let mut len = edits.iter().map(|&edit| growth(edit)).sum::<isize>();
@@ -42,7 +40,7 @@ pub(super) fn follow(tree: &mut Tree, text: &str, edits: &[[Span; 2]], piece: us
                 let byte = |before: usize| text.as_bytes().get(before);
                 before.is_none_or(|before| byte(before).copied().is_some_and(is_line_end))
             };
-            let (touched, lines) = tree.tokens.touched(old, len as usize, is_line);
+            let (touched, lines) = tokens.touched(old, len as usize, is_line);
             let now = lines.start..lines.end.wrapping_add_signed(grown);
             // Edits of the same lines are followed together.
             if let Some(edit) = next
@@ -52,7 +50,7 @@ pub(super) fn follow(tree: &mut Tree, text: &str, edits: &[[Span; 2]], piece: us
                 grown += growth(edit);
                 continue;
             }
-            tree.tokens.replace(touched, read(text, now, piece), grown);
+            tokens.replace(touched, read(text, now, piece), grown);
             len += grown;
             break;
         }
@@ -276,7 +274,7 @@ mod tests {
                 text.replace_range(old.range(), &put);
                 let changed = Span::new(old.start(), old.start() + put.len());
                 follow(&mut tree, &text, &[[old, changed]], piece);
-                prop_assert_eq!(all(&tree.tokens), read_plainly(&text), "{:?}", text);
+                prop_assert_eq!(all(&tree), read_plainly(&text), "{:?}", text);
             }
         }
 
@@ -300,7 +298,7 @@ mod tests {
             let inverse = text::apply(&mut text, &edits);
             let spans: Vec<_> = edits.iter().zip(&inverse).map(|(edit, back)| [edit.span, back.span]).collect();
             follow(&mut tree, &text, &spans, piece);
-            prop_assert_eq!(all(&tree.tokens), read_plainly(&text), "{:?}", text);
+            prop_assert_eq!(all(&tree), read_plainly(&text), "{:?}", text);
         }
 
         #[test]
@@ -309,20 +307,20 @@ mod tests {
             piece in 1usize..90,
         ) {
             let tree = scan(&text, piece);
-            prop_assert_eq!(all(&tree.tokens), read_plainly(&text));
+            prop_assert_eq!(all(&tree), read_plainly(&text));
             let (tokens, _) = read_plainly(&text);
             let letters = |&(_, token): &(usize, Span)| may_begin_word(text.as_bytes()[token.start()]);
-            prop_assert_eq!(tree.tokens.len(), tokens.len());
-            let words: Vec<_> = tree.tokens.words().collect();
+            prop_assert_eq!(tree.len(), tokens.len());
+            let words: Vec<_> = tree.words().collect();
             prop_assert!(words.into_iter().eq((0..).zip(tokens.iter().copied()).filter(letters)));
             for at in 0..=tokens.len() {
-                prop_assert_eq!(tree.tokens.get(at), tokens.get(at).copied());
+                prop_assert_eq!(tree.get(at), tokens.get(at).copied());
                 let to = tokens.len().min(at + 3);
-                prop_assert_eq!(tree.tokens.range(at..at + 3), &tokens[at..to]);
-                let words = tree.tokens.words_from(at);
+                prop_assert_eq!(tree.range(at..at + 3), &tokens[at..to]);
+                let words = tree.words_from(at);
                 prop_assert!(words.eq((at..).zip(tokens[at..].iter().copied()).filter(letters)));
             }
-            let mut window = Window::new(&tree.tokens, 0..tokens.len());
+            let mut window = Window::new(&tree, 0..tokens.len());
             for at in (0..=tokens.len()).step_by(7) {
                 window.slide(at);
                 let to = tokens.len().min(at + 64);
@@ -331,7 +329,7 @@ mod tests {
             }
             for place in 0..text.len() {
                 let before = |span: &Span| span.end() <= place;
-                let found = tree.tokens.partition_point(|span| before(&span));
+                let found = tree.partition_point(|span| before(&span));
                 prop_assert_eq!(found, tokens.partition_point(before));
             }
         }
