@@ -8,7 +8,7 @@ use text::{Edit, Span, line_end, line_start, next_line, parse_number, spell_like
 pub(super) type Numbers = Vec<f64>;
 
 /// The literals of the view's fields for these numbers, one per component.
-pub(super) fn literals(fields: &[&'static Field], numbers: &Numbers) -> Vec<Vec<String>> {
+pub(super) fn literals(fields: &[&'static Field], numbers: &[f64]) -> Vec<Vec<String>> {
     let mut numbers = numbers.iter();
     let literals = |field: &&Field| {
         let own = numbers.by_ref().take(field.kind.components());

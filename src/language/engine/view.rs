@@ -3,7 +3,7 @@
 use super::{Language, Source};
 use crate::field_spans::FieldSpans;
 use crate::schema::Record;
-use crate::view::{beginning, line_ending, literal, respelled, take};
+use crate::view::{beginning, line_ending, literals, respelled};
 use scene::Camera;
 use text::{Edit, Span};
 
@@ -60,12 +60,9 @@ impl<L: Language> Source<L> {
 }
 
 /// A whole record in default style.
-fn spelled(record: &'static Record, mut numbers: &[f64]) -> String {
-    let parts = record.fields().map(|field| {
-        let own = take(&mut numbers, field);
-        let literals: Vec<_> = own.iter().map(|&number| literal(field, number)).collect();
-        literals.join(" ")
-    });
-    let parts: Vec<_> = parts.collect();
+fn spelled(record: &'static Record, numbers: &[f64]) -> String {
+    let fields: Vec<_> = record.fields().collect();
+    let parts = literals(&fields, numbers).into_iter();
+    let parts: Vec<_> = parts.map(|part| part.join(" ")).collect();
     format!("{} {}", record.heads.join(" "), parts.join("  "))
 }

@@ -21,13 +21,6 @@ use text::Span;
 /// A block of objects, and its materials, whose numbers start at that of its first object.
 pub(super) type Block = (Arc<[Object]>, Arc<[Material]>);
 
-/// All objects of a text.
-pub(super) struct AllObjects {
-    pub(super) places: Arc<Vec<ObjectPlace>>,
-    pub(super) objects: Objects,
-    pub(super) materials: Materials,
-}
-
 /// The block with a number that reading these objects would give, with their materials.
 pub(super) fn block<'o>(
     number: usize,
@@ -58,9 +51,12 @@ pub(super) fn block<'o>(
     (objects.collect(), materials.into())
 }
 
-/// Reads a text of several blocks: what is before the objects, and the objects. `None` if the text
-/// must be read in order.
-pub(super) fn read<'a>(text: &'a str, tokens: &'a Tokens) -> Option<(Reader<'a>, AllObjects)> {
+/// Reads a text of several blocks: what is before the objects and where they are, and the objects.
+/// `None` if the text must be read in order.
+pub(super) fn read<'a>(
+    text: &'a str,
+    tokens: &'a Tokens,
+) -> Option<(Reader<'a>, (Objects, Materials))> {
     // Threads do not pay off for small scenes.
     if tokens.len() <= BLOCK * (1 + LEAST_NUMBERS) {
         return None;
@@ -90,17 +86,10 @@ pub(super) fn read<'a>(text: &'a str, tokens: &'a Tokens) -> Option<(Reader<'a>,
         block
     });
     let (objects, materials) = blocks.unzip();
-    let read = AllObjects {
-        places: Arc::new(places),
-        objects: Objects::of_blocks(objects),
-        materials: Materials::of_blocks(materials),
-    };
-    debug_assert_eq!(
-        read.objects.len(),
-        read.places.len(),
-        "each keyword is an object"
-    );
-    Some((reader, read))
+    let objects = Objects::of_blocks(objects);
+    debug_assert_eq!(objects.len(), places.len(), "each keyword is an object");
+    reader.origins.objects = Arc::new(places);
+    Some((reader, (objects, Materials::of_blocks(materials))))
 }
 
 /// The place of a complete object, if its keyword is this token.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::blocks::{self, AllObjects};
+use super::blocks;
 use super::lower;
 use super::origins::{ObjectPlace, Origins};
 use super::reader::Reader;
@@ -44,7 +44,7 @@ pub(super) fn lower(
     let kept = change.kept_findings(tree, &places, before.diagnostics)?;
     reader.report.append(kept);
     let known = before.scene;
-    let (objects, materials) = if change.region.is_none() {
+    let objects = if change.region.is_none() {
         (known.objects.clone(), known.materials.clone())
     } else {
         let tokens = change.tokens(tree, &places);
@@ -56,12 +56,8 @@ pub(super) fn lower(
         reader.report.append(read.report);
         made
     };
-    let read = AllObjects {
-        places,
-        objects,
-        materials,
-    };
-    let (origins, lowered) = lower::joined(text, tree, reader, read);
+    reader.origins.objects = places;
+    let (origins, lowered) = lower::joined(text, tree, reader, objects);
     let found = &lowered.diagnostics;
     (found.len() == found.warnings()).then_some((origins, lowered))
 }

@@ -2,28 +2,28 @@
 
 use std::sync::Arc;
 
-use super::blocks::{self, AllObjects};
+use super::blocks;
 use super::origins::Origins;
 use super::reader::{Reader, is_word};
 use super::tree::{RENDER, Tokens};
 use super::view_comment::{find, keyed};
 use crate::Lowered;
 use crate::rendering::first_comment;
-use scene::{Materials, Scene, Setting, bounds};
+use scene::{Materials, Objects, Scene, Setting, bounds};
 use text::{Diagnostic, Findings};
 
 /// Lowers a text.
 pub(super) fn lower(text: &str, tokens: &Tokens) -> (Origins, Lowered) {
     let read = blocks::read(text, tokens);
-    let (reader, read) = read.unwrap_or_else(|| in_order(text, tokens));
-    joined(text, tokens, reader, read)
+    let (reader, objects) = read.unwrap_or_else(|| in_order(text, tokens));
+    joined(text, tokens, reader, objects)
 }
 
 /// Lowers a text that need not be regular.
 #[cfg(test)]
 pub(super) fn lower_in_order(text: &str, tokens: &Tokens) -> (Origins, Lowered) {
-    let (reader, read) = in_order(text, tokens);
-    joined(text, tokens, reader, read)
+    let (reader, objects) = in_order(text, tokens);
+    joined(text, tokens, reader, objects)
 }
 
 /// Returns the errors of every text that begins with these tokens.
@@ -50,39 +50,31 @@ pub(super) fn errors_of_beginning(text: &str, tokens: &Tokens) -> Findings {
 }
 
 /// Reads a text that need not be regular.
-fn in_order<'a>(text: &'a str, tokens: &'a Tokens) -> (Reader<'a>, AllObjects) {
+fn in_order<'a>(text: &'a str, tokens: &'a Tokens) -> (Reader<'a>, (Objects, Materials)) {
     let mut reader = Reader::new(text, tokens, 0..tokens.len());
     reader.read();
     let materials = std::mem::take(&mut reader.materials).into_iter();
     // After an error a block may be without any.
     let materials = materials.filter(|block| !block.is_empty());
-    let read = AllObjects {
-        places: Arc::new(std::mem::take(&mut reader.places)),
-        objects: std::mem::take(&mut reader.objects).into(),
-        materials: Materials::of_blocks(materials.map(Arc::from).collect()),
-    };
-    (reader, read)
+    let materials = Materials::of_blocks(materials.map(Arc::from).collect());
+    let objects = std::mem::take(&mut reader.objects).into();
+    reader.origins.objects = Arc::new(std::mem::take(&mut reader.places));
+    (reader, (objects, materials))
 }
 
-/// Joins what the comments, the header and the objects of a text mean.
+/// Joins what the comments, the header, with the places of the objects, and the objects of a text mean.
 pub(super) fn joined(
     text: &str,
     tokens: &Tokens,
     mut reader: Reader<'_>,
-    read: AllObjects,
+    (objects, materials): (Objects, Materials),
 ) -> (Origins, Lowered) {
-    let AllObjects {
-        places,
-        objects,
-        materials,
-    } = read;
     let mut report = Findings::default();
     let view = find(text, tokens, &mut report);
     let render = first_comment(text, keyed(text, tokens, RENDER), &mut report);
     report.append(reader.report);
     reader.origins.view = view;
     reader.origins.render = render;
-    reader.origins.objects = places;
     reader.origins.tokens = tokens.len();
     // A view with both eye and target can be checked even if not all objects are known.
     let judged = report.errors() == 0 || view.has_eye_and_target();

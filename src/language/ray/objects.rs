@@ -303,13 +303,11 @@ impl<'a> Reader<'a> {
 pub(super) fn numbered(materials: &mut Vec<Material>, material: Cow<'_, Material>) -> usize {
     let first = first_compared(materials);
     let mut known = materials[first..].iter();
-    match known.rposition(|known| *known == *material) {
-        Some(known) => first + known,
-        None => {
-            materials.push(material.into_owned());
-            materials.len() - 1
-        }
+    if let Some(known) = known.rposition(|known| *known == *material) {
+        return first + known;
     }
+    materials.push(material.into_owned());
+    materials.len() - 1
 }
 
 /// The first material of a block to compare a new one with.

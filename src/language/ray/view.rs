@@ -1,10 +1,8 @@
 //! Conversion between cameras and view comments.
 
-use std::fmt::Write;
-
 use super::view_comment::{DEFAULT, PLACES, ViewComment};
 use crate::field_spans::FieldSpans;
-use crate::view::{Numbers, beginning, line_ending, literal, respelled, take};
+use crate::view::{Numbers, beginning, line_ending, literals, respelled, take};
 use scene::Camera;
 use text::{Edit, Span};
 
@@ -25,12 +23,8 @@ pub(super) fn edits(text: &str, view: &ViewComment, before: &Camera, camera: &Ca
         // A missing eye depends on the angle of view, so a new angle must pin it.
         let is_pinned = field.key == "eye" && before.lens != camera.lens;
         if spans.is_empty() && (old != new || is_pinned) {
-            missing.push(' ');
-            missing.push_str(field.key);
-            for &number in new {
-                // Writing to a string cannot fail.
-                let _ = write!(missing, " {}", literal(field, number));
-            }
+            let words = literals(&[field], new).concat().join(" ");
+            missing.extend([" ", field.key, " ", &words]);
         }
     }
     Edit::sort(&mut edits);

@@ -158,7 +158,7 @@ impl Range {
     }
 
     /// Whether only integers are within the bounds.
-    pub const fn is_whole(self) -> bool {
+    pub(crate) const fn is_whole(self) -> bool {
         matches!(self, Self::Count | Self::Whole(..) | Self::Identity)
     }
 
