@@ -42,12 +42,8 @@ pub(super) fn addition(
         let form = Form::upright(wish.centre, wish.half, axis);
         let numbers = numbers_of(&SCHEMA, kind.record(), &form)?.into_iter();
         let mut literals: Vec<_> = numbers.map(|number| wish.literal(number)).collect();
-        let material = match wish.after {
-            Node::Object(selected) => source.material_literals(selected),
-            _ => None,
-        };
         let plain = || PLAIN.split(' ').map(str::to_owned).collect();
-        literals.extend(material.unwrap_or_else(plain));
+        literals.extend(source.material_literals(wish.after).unwrap_or_else(plain));
         let like = source.like(kind, wish.after);
         source.laid_out(kind.keyword(), kind.fields(), &literals, like)
     } else {
@@ -90,11 +86,12 @@ const PLAIN: &str = "0.1 0.1 0.1 0.6 0.6 0.6 0.3 0.3 0.3 20 0 0 1";
 
 impl Source {
     /// The material of an object as it is written.
-    fn material_literals(&self, index: usize) -> Option<Vec<String>> {
-        let numbers = self.object_numbers(index)?;
-        let spans = &numbers.spans[numbers.record.numbers()..];
-        let literals = spans.iter().map(|span| span.of(&self.text).to_owned());
-        (spans.len() == MATERIAL.numbers()).then(|| literals.collect())
+    fn material_literals(&self, node: Node) -> Option<Vec<String>> {
+        let kind = self.origins.kind(node)?;
+        let tokens = self.tree.range(self.origins.tokens(node));
+        let material = tokens.get(1 + kind.geometry()..)?.iter();
+        let literals = material.map(|span| span.of(&self.text).to_owned());
+        (tokens.len() == 1 + kind.numbers()).then(|| literals.collect())
     }
 
     /// A new text for a span, with the comments of the old one before it, each on its own line.

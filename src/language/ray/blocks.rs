@@ -114,8 +114,7 @@ pub(super) fn header<'a>(
     let mut reader = Reader::new(text, tokens, known);
     reader.header();
     let declared = reader.declared?.declared;
-    let is_regular =
-        reader.report.errors() == 0 && reader.at == first && declared == places.len() as u64;
+    let is_regular = reader.report.errors() == 0 && reader.at == first && declared == places.len();
     is_regular.then_some(reader)
 }
 

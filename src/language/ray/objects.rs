@@ -29,9 +29,9 @@ impl<'a> Reader<'a> {
     pub(super) fn objects(&mut self) {
         let count = self.declared;
         let left = self.tokens.end() - self.at;
-        let declared = count.map_or(u64::MAX, |count| count.declared);
+        let declared = count.map_or(usize::MAX, |count| count.declared);
         let holds = left / (1 + LEAST_NUMBERS);
-        self.objects.reserve(holds.min(declared as usize));
+        self.objects.reserve(holds.min(declared));
         let mut seen = 0;
         // After text that made no sense, the number of objects cannot be checked.
         let mut lost = false;
@@ -51,7 +51,7 @@ impl<'a> Reader<'a> {
             }
             lost = true;
             if is_word(word) {
-                seen += u64::from(self.unknown_type(token));
+                seen += usize::from(self.unknown_type(token));
             } else {
                 self.surplus(token);
             }
@@ -59,7 +59,7 @@ impl<'a> Reader<'a> {
         let Some(count) = count else {
             return;
         };
-        let found = self.places.len() as u64;
+        let found = self.places.len();
         if count.declared < found {
             let more = match found - count.declared {
                 _ if self.is_beginning => "more objects follow".to_owned(),

@@ -25,7 +25,7 @@ pub(super) const LEAST_NUMBERS: usize = ShapeKind::Sphere.numbers();
 #[derive(Clone, Copy)]
 pub(super) struct Count {
     pub(super) token: Span,
-    pub(super) declared: u64,
+    pub(super) declared: usize,
 }
 
 /// A buffer for the numbers of a record and their tokens.
@@ -135,9 +135,7 @@ impl<'a> Reader<'a> {
     /// Reads the lights; returns whether the number of objects follows where it should.
     fn lights(&mut self, count: Option<Count>) -> bool {
         let each = LIGHT.numbers();
-        let due = count.map(|count| {
-            usize::try_from(count.declared).map_or(usize::MAX, |lights| lights.saturating_mul(each))
-        });
+        let due = count.map(|count| count.declared.saturating_mul(each));
         let run = self.run(due.map(|due| due.saturating_add(1)));
         // The last number before the first object is their count, the others belong to lights.
         let whole = run.object.is_some() && run.len % each == 1;
@@ -233,7 +231,7 @@ impl<'a> Reader<'a> {
         let problem = match parse_number(word) {
             Ok(value) if schema::Range::Count.contains(value) && is_integer(word) => {
                 // A count beyond the integers saturates: no text holds that many.
-                let declared = value as u64;
+                let declared = value as usize;
                 return Some(Count { token, declared });
             }
             Ok(_) => {

@@ -12,7 +12,6 @@ use crate::camera::{CameraSpans, Pinhole, check, default_eye_and_target};
 use crate::field_spans::FieldSpans;
 use crate::record::what;
 use crate::report::{Name, number_in_comment, quoted};
-use crate::schema::Kind;
 use crate::words::{Words, after_key};
 use geometry::{Aabb, normalise};
 use scene::Camera;
@@ -94,15 +93,16 @@ impl ViewComment {
     }
 
     /// Reads the numbers of a field from the words after its key.
-    fn read(
+    fn read_field(
         &mut self,
         field: usize,
         text: &str,
         words: &mut Words<'_>,
         report: &mut Findings,
     ) -> Result<(), Diagnostic> {
+        let is_up = field == UP;
         let (numbers, field) = (numbers_of(field), VIEW.field(field));
-        for (at, component) in numbers.clone().zip(field.kind.component_names()) {
+        for (at, component) in numbers.zip(field.kind.component_names()) {
             let what = || what(Name::View, field, component);
             let end = || Span::at(self.comment.unwrap_or_default().end());
             let span = words.next().unwrap_or_else(end);
@@ -114,9 +114,8 @@ impl ViewComment {
             self.numbers[at] = number_in_comment(field, span, word, report, what)?;
             self.spans[at] = span;
         }
-        let is_zero = |numbers: &[f64]| normalise(DVec3::from_slice(numbers)).is_none();
-        if field.kind == Kind::Direction && is_zero(&self.numbers[numbers.clone()]) {
-            let span = self.spans[numbers.start].to(self.spans[numbers.end - 1]);
+        if is_up && normalise(PLACES.up.vector(&self.numbers)).is_none() {
+            let span = PLACES.up.span(&self.spans);
             let message = format!("{}: must not be zero", what(Name::View, field, ""));
             return Err(Diagnostic::warning(span, message, "a direction"));
         }
@@ -225,7 +224,7 @@ fn read(
             let message = format!("view {word}: given twice");
             return Err(Diagnostic::warning(key, message, "each part once"));
         }
-        view.read(field, text, &mut words, report)?;
+        view.read_field(field, text, &mut words, report)?;
     }
     Ok(view)
 }
