@@ -187,19 +187,14 @@ impl<'e> Change<'e> {
     /// Maps a place in the old text, outside the region, to the new one.
     fn moved(&self, place: usize) -> usize {
         let before = self.edits.iter().take_while(|edit| edit.old.end() <= place);
-        before
-            .last()
-            .map_or(place, |edit| place - edit.old.end() + edit.new.end())
+        let last = before.last();
+        last.map_or(place, |edit| place - edit.old.end() + edit.new.end())
     }
 }
 
 /// If an edit replaced numbers by as many, between white space, the last one's token.
 fn numbers_in_place(text: &str, tree: &Tokens, edit: &Replaced) -> Option<usize> {
-    let Replaced {
-        new,
-        numbers: count,
-        ..
-    } = *edit;
+    let (new, count) = (edit.new, edit.numbers);
     if count == 0 || numbers(new.of(text)) != count {
         return None;
     }
@@ -218,10 +213,8 @@ fn replaced(scene: &Scene, old: Range<usize>, by: &Reader<'_>) -> (Objects, Mate
     let object = |at: usize| match at.checked_sub(old.start) {
         Some(new) if new < by.objects.len() => {
             let Object { shape, material } = &by.objects[new];
-            (
-                shape,
-                &by.materials[*material as usize / BLOCK][*material as usize % BLOCK],
-            )
+            let at = *material as usize;
+            (shape, &by.materials[at / BLOCK][at % BLOCK])
         }
         moved => {
             let at = moved.map_or(at, |new| old.end + new - by.objects.len());

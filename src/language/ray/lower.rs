@@ -62,7 +62,8 @@ fn in_order<'a>(text: &'a str, tokens: &'a Tokens) -> (Reader<'a>, (Objects, Mat
     (reader, (objects, materials))
 }
 
-/// Joins what the comments, the header, with the places of the objects, and the objects of a text mean.
+/// Joins what the comments, the header and the objects of a text mean. The reader holds the places of the
+/// objects.
 pub(super) fn joined(
     text: &str,
     tokens: &Tokens,

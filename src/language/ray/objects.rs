@@ -330,12 +330,9 @@ fn coefficients(numbers: &[f64]) -> Coefficients {
 
 /// Describes how many numbers a kind of object takes.
 fn takes(kind: ShapeKind) -> String {
-    let article = if kind == ShapeKind::Ellipsoid {
-        "an"
-    } else {
-        "a"
-    };
     let keyword = kind.keyword();
+    let begins_with_vowel = keyword.starts_with(['a', 'e', 'i', 'o', 'u']);
+    let article = if begins_with_vowel { "an" } else { "a" };
     let shape = kind.geometry();
     let material = kind.numbers() - shape;
     format!("{article} {keyword} takes {shape} numbers and {material} more for its material")

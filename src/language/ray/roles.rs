@@ -10,24 +10,21 @@ use text::Span;
 pub(super) fn roles(text: &str, leaves: &[Span], [at_start, at_end]: [bool; 2]) -> Roles {
     let mut roles = vec![ANYWHERE; leaves.len()];
     let is_token = |leaf: &Span| !begins_comment(leaf.of(text).as_bytes());
-    let tokens = || (0..).zip(leaves).filter(|(_, leaf)| is_token(leaf));
+    let tokens = (0..).zip(leaves).filter(|(_, leaf)| is_token(leaf));
     let mut head = Vec::new();
     // The next number's index in its object, and the number of its shape's numbers.
     let mut place: Option<(usize, usize)> = None;
-    for (at, leaf) in tokens() {
-        let word = leaf.of(text);
-        if let Some(kind) = ShapeKind::of_word(word) {
+    for (at, leaf) in tokens {
+        if let Some(kind) = ShapeKind::of_word(leaf.of(text)) {
             place = Some((0, kind.geometry()));
-            continue;
-        }
-        match &mut place {
-            None => head.push(at),
-            Some((index, shape)) => {
-                roles[at] = index
-                    .checked_sub(*shape)
-                    .map_or_else(|| role(b's', *index), |index| role(b'm', index));
-                *index += 1;
-            }
+        } else if let Some((index, shape)) = &mut place {
+            roles[at] = match index.checked_sub(*shape) {
+                None => role(b's', *index),
+                Some(index) => role(b'm', index),
+            };
+            *index += 1;
+        } else {
+            head.push(at);
         }
     }
     let is_cut = !at_start || (place.is_none() && !at_end);
@@ -37,10 +34,8 @@ pub(super) fn roles(text: &str, leaves: &[Span], [at_start, at_end]: [bool; 2]) 
         }
     }
     let unknown = head.last().filter(|_| is_cut);
-    Roles {
-        roles,
-        unknown: unknown.map_or(0, |at| at + 1),
-    }
+    let unknown = unknown.map_or(0, |at| at + 1);
+    Roles { roles, unknown }
 }
 
 /// The role of a number before the first object, of so many.

@@ -107,6 +107,9 @@ const fn solid(name: &'static str, heads: &'static [&'static str], unit: Unit, s
     Record::new(name, heads, Makes::Solid(unit), slots)
 }
 
+/// The records of shapes, in the order of [`ShapeKind::ALL`].
+const SHAPES: [&Record; 5] = [&SPHERE, &ELLIPSOID, &BOX, &CYLINDER, &CONE];
+
 /// The kinds of objects, in a byte.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum ShapeKind {
@@ -123,13 +126,7 @@ impl ShapeKind {
 
     /// The record of the shape, without the material.
     pub(super) const fn record(self) -> &'static Record {
-        match self {
-            Self::Sphere => &SPHERE,
-            Self::Ellipsoid => &ELLIPSOID,
-            Self::Box => &BOX,
-            Self::Cylinder => &CYLINDER,
-            Self::Cone => &CONE,
-        }
+        SHAPES[self as usize]
     }
 
     /// The keyword that begins such an object.
