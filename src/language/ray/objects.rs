@@ -6,7 +6,7 @@ use super::origins::ObjectPlace;
 use super::reader::{Count, LEAST_NUMBERS, Numbers, Reader, component, is_word};
 use super::schema::{MATERIAL, ShapeKind};
 use crate::coefficients::Coefficients;
-use crate::record::Record;
+use crate::record::{Record, what};
 use crate::report::{Name, did_you_mean, quoted};
 use geometry::Shape;
 use scene::blocks::BLOCK;
@@ -60,31 +60,32 @@ impl<'a> Reader<'a> {
             return;
         };
         let found = self.places.len();
-        if count.declared < found {
-            let more = match found - count.declared {
+        let truth = if count.declared < found {
+            match found - count.declared {
                 _ if self.is_beginning => "more objects follow".to_owned(),
                 1 => "1 more object follows".to_owned(),
                 more => format!("{more} more objects follow"),
-            };
-            self.miscounted(count, &more);
+            }
         } else if found < count.declared && !lost && !self.is_cut() {
             let after = self.last().map(|last| format!("after {last}"));
             let after = after.unwrap_or_else(|| "before any object".to_owned());
-            self.miscounted(count, &format!("the text ends {after}"));
-        }
+            format!("the text ends {after}")
+        } else {
+            return;
+        };
+        let hint = match found {
+            _ if self.is_beginning => "it counts the objects".to_owned(),
+            0 => format!("an object begins with {}", keywords()),
+            found => format!("there are {found}: write {found}"),
+        };
+        self.miscounted(count, &truth, hint);
     }
 
-    /// Reports a declared number of objects that differs from the number found.
-    fn miscounted(&mut self, count: Count, truth: &str) {
-        let found = self.places.len();
+    /// Reports a declared number of objects that is not true.
+    fn miscounted(&mut self, count: Count, truth: &str, hint: String) {
         let declared = quoted(count.token.of(self.text));
         let message = format!("nObjects is {declared}, but {truth}");
         self.report.error(|| {
-            let hint = match found {
-                _ if self.is_beginning => "it counts the objects".to_owned(),
-                0 => format!("an object begins with {}", keywords()),
-                found => format!("there are {found}: write {found}"),
-            };
             Diagnostic::error(count.token, message, "as many as there are objects").with_hint(hint)
         });
     }
@@ -218,16 +219,9 @@ impl<'a> Reader<'a> {
         if self.is_cut() {
             return;
         }
-        let declared = quoted(count.token.of(self.text));
-        let space = if component.is_empty() { "" } else { " " };
-        self.report.error(|| {
-            let message = format!(
-                "nObjects is {declared}, but the text ends in {}, where {}{space}{component} is expected",
-                record.name, field.key
-            );
-            Diagnostic::error(count.token, message, "as many as there are objects")
-                .with_hint(takes(kind))
-        });
+        let next = what(Name::Record(field.key), field, component);
+        let truth = format!("the text ends in {}, where {next} is expected", record.name);
+        self.miscounted(count, &truth, takes(kind));
     }
 
     /// Reports an unknown type and skips what follows it; returns whether that may have been an
