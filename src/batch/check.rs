@@ -25,12 +25,14 @@ pub fn check(work: &Check) -> Result<(), Error> {
     let mut first_failure = None;
     let mut errors = 0;
     let mut warnings = 0;
+    let mut notes = 0;
     for path in &work.scenes {
         let over = Over::default();
         match work.reading.load(Messages::Text, path, Some(&over)) {
             Ok(mut loaded) => {
                 errors += loaded.findings.errors();
                 warnings += loaded.findings.warnings();
+                notes += loaded.findings.notes();
                 if 0 < loaded.findings.errors() {
                     first_failure.get_or_insert(Failure::Invalid);
                 }
@@ -47,8 +49,12 @@ pub fn check(work: &Check) -> Result<(), Error> {
             }
         }
     }
+    let notes = match notes {
+        0 => String::new(),
+        notes => format!(", {}", counted(notes, "note")),
+    };
     messages::print(&format!(
-        "{} checked: {}, {}",
+        "{} checked: {}, {}{notes}",
         counted(work.scenes.len(), "scene"),
         counted(errors, "error"),
         counted(warnings, "warning"),

@@ -29,8 +29,16 @@ pub(super) struct Implicit {
     pub(super) element: Option<&'static str>,
     /// The place and the surroundings of the insertion.
     pub(super) insertion: Insertion,
-    /// What must be inserted elsewhere to limit the effect to the node.
-    pub(super) limit: Option<Edit>,
+    pub(super) limit: Option<Limit>,
+}
+
+/// What limits the effect of an insertion to the node.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Limit {
+    /// A further insertion, behind the node.
+    pub(super) edit: Edit,
+    /// The first number of what is in force around the node, if the text states that.
+    pub(super) inherited: Option<Span>,
 }
 
 /// A missing attribute.
@@ -82,10 +90,14 @@ impl FieldSpans {
         self.implicit.as_ref()?.defaults.get(component)?.as_deref()
     }
 
-    /// Whether the components that the text omits have the values that hold around the node.
+    /// Whether the components that the text omits have the values that it states for other nodes, too.
     pub fn is_inherited(&self) -> bool {
-        let implicit = self.implicit.as_ref();
-        implicit.is_some_and(|implicit| implicit.limit.is_some())
+        self.inherited().is_some()
+    }
+
+    /// The first number of what the text states for other nodes, too.
+    pub(super) fn inherited(&self) -> Option<Span> {
+        self.implicit.as_ref()?.limit.as_ref()?.inherited
     }
 
     /// Whether the text states any of the components.
@@ -115,7 +127,7 @@ pub(super) fn insertions(
             continue;
         };
         let inserted = markup(implicit, &missing);
-        limits.extend(implicit.limit.clone());
+        limits.extend(implicit.limit.as_ref().map(|limit| limit.edit.clone()));
         match insertions
             .iter_mut()
             .find(|(place, _)| **place == implicit.insertion)
@@ -165,5 +177,7 @@ pub(super) fn edits<Source: SceneText + ?Sized>(
     });
     let mut edits: Vec<_> = edits.collect();
     Edit::sort(&mut edits);
+    // Two nodes may have a place in common.
+    edits.dedup_by_key(|edit| edit.span);
     edits
 }

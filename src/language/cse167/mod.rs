@@ -74,8 +74,8 @@ impl Language for Cse167 {
         lower::lower(text, lines)
     }
 
-    fn further_fields(source: &Source, node: Node) -> Vec<FieldSpans> {
-        source.caught(node)
+    fn fields(source: &Source, node: Node, own: Vec<FieldSpans>) -> Vec<FieldSpans> {
+        source.with_caught(node, own)
     }
 
     fn insertions(text: &str, wanted: &[Wanted<'_>]) -> Vec<Edit> {
@@ -125,7 +125,16 @@ impl Language for Cse167 {
         }
         // Otherwise they would join the mesh before them.
         let end = line_ending(&text);
-        format!("pushTransform{end}{text}{end}popTransform")
+        let indent = &text[..text.len() - text.trim_start().len()];
+        format!(
+            "{indent}{}{end}{text}{end}{indent}{}",
+            schema::PUSH.name,
+            schema::POP.name
+        )
+    }
+
+    fn goes_with(source: &Source, object: usize) -> Vec<usize> {
+        source.own_values(object)
     }
 
     fn check_exchange(source: &Source, nodes: [Node; 2]) -> Result<(), StructureError> {

@@ -134,7 +134,8 @@ impl Source {
         Ok(())
     }
 
-    fn kind(&self, at: usize) -> Option<&'static Record> {
+    /// The kind of a command; `None` if it is unknown.
+    pub(super) fn kind(&self, at: usize) -> Option<&'static Record> {
         kind(&SCHEMA, &self.text, &self.tree.tokens(&self.text, at)).ok()
     }
 
@@ -221,7 +222,7 @@ impl Source {
             let indent = indent(first);
             let opening = format!("{indent}{}{end}{}", PUSH.name, lines(indent, "", end));
             return Ok(vec![
-                insert(line(first).start(), opening),
+                insert(self.block_span(first).start(), opening),
                 insert(line(last).end(), format!("{end}{indent}{}", POP.name)),
             ]);
         };
@@ -234,7 +235,10 @@ impl Source {
             return Ok(edits);
         }
         Ok(vec![if is_own {
-            insert(line(first).start(), lines(indent(first), "", end))
+            insert(
+                self.block_span(first).start(),
+                lines(indent(first), "", end),
+            )
         } else {
             insert(line(push).end(), lines(indent(push + 1), end, ""))
         }])
@@ -267,17 +271,17 @@ impl Source {
 
     /// The push of a pair that holds no other primitive or light than these commands.
     fn own_push(&self, first: usize, last: usize) -> Option<usize> {
-        let is_plain = |kind: &Record| kind.makes == Makes::State && *kind != POP && *kind != PUSH;
+        let triangles = [TRI, TRI_NORMAL];
+        let is_plain = |kind: &Record| {
+            let is_other = triangles.contains(kind) || *kind == POP || *kind == PUSH;
+            kind.makes == Makes::State && !is_other
+        };
         let mut before = (0..first).rev().map(|at| (at, self.kind(at)));
         let (push, _) = before.find(|(_, kind)| !kind.is_some_and(is_plain))?;
         let mut behind = (last + 1..self.tree.records.len()).map(|at| (at, self.kind(at)));
         let (pop, _) = behind.find(|(_, kind)| !kind.is_some_and(is_plain))?;
         let is_pair = self.kind(push) == Some(&PUSH) && self.kind(pop) == Some(&POP);
-        let mut others = (push + 1..first)
-            .chain(last + 1..pop)
-            .filter_map(|at| self.kind(at));
-        let triangles = [TRI, TRI_NORMAL];
-        (is_pair && !others.any(|kind| triangles.contains(kind))).then_some(push)
+        is_pair.then_some(push)
     }
 }
 

@@ -58,10 +58,10 @@ pub(crate) trait Language: Clone + Copy + Debug + Default + Send + Sync + 'stati
         Rendering::default()
     }
 
-    /// The parts of a node that no record of its own states.
-    fn further_fields(source: &Source<Self>, node: Node) -> Vec<FieldSpans> {
+    /// The fields of a node, given those in its own records.
+    fn fields(source: &Source<Self>, node: Node, own: Vec<FieldSpans>) -> Vec<FieldSpans> {
         let _ = (source, node);
-        Vec::new()
+        own
     }
 
     /// Returns the edits that insert these values where the text omits them.
@@ -99,6 +99,12 @@ pub(crate) trait Language: Clone + Copy + Debug + Default + Send + Sync + 'stati
     fn records_of(source: &Source<Self>, object: usize) -> Vec<usize> {
         let place = source.origins.objects().get(object);
         place.map(|place| place.at).into_iter().collect()
+    }
+
+    /// The further records that serve an object alone.
+    fn goes_with(source: &Source<Self>, object: usize) -> Vec<usize> {
+        let _ = (source, object);
+        Vec::new()
     }
 
     /// A copied text as it is to be inserted.

@@ -81,7 +81,7 @@ where
                 let records = self.origins.records::<L>(node);
                 let records = records.filter(|(_, record)| has_fields(record));
                 let own = records.flat_map(|record| fields(&self.text, &self.tree, record));
-                own.chain(L::further_fields(self, node)).collect()
+                L::fields(self, node, own.collect())
             }
         }
     }

@@ -52,6 +52,9 @@ where
         let mut records = BTreeSet::new();
         for &node in &gone {
             records.extend(self.own_records(node)?);
+            if let Node::Object(object) = node {
+                records.extend(L::goes_with(self, object));
+            }
         }
         let uses = self.origins.uses.iter();
         let uses = uses.filter(|place| place.references().any(|node| gone.contains(&node)));

@@ -8,8 +8,8 @@ use glam::DVec3;
 use super::{Node, Source};
 use geometry::{Shape, normalise};
 use scene::{
-    Camera, Emitter, FalloffRule, Integrator, LEAST_ADAPTIVE_SPP, Light, Material, Rendering, Rgb,
-    Scene, Shadows,
+    Camera, Emitter, Faces, FalloffRule, Integrator, LEAST_ADAPTIVE_SPP, Light, Material,
+    Rendering, Rgb, Scene, Shadows,
 };
 use text::{Diagnostic, Span, concise};
 
@@ -204,7 +204,11 @@ impl Judge<'_> {
     /// Materials that glow: they emit no photons.
     fn glowing(&self) -> Vec<Outlook> {
         let found = self.materials_in_use().into_iter();
-        let found = found.filter(|(_, material)| material.emission != Rgb::ZERO);
+        // Without a material an object is white on both sides, which nobody asked for.
+        let found = found.filter(|(node, material)| {
+            let is_meant = matches!(node, Node::Material(_)) || material.lit == Faces::Front;
+            is_meant && material.emission != Rgb::ZERO
+        });
         let found = found.map(|(node, _)| {
             let name = self.source.name(node);
             let message = format!("{name} emits no photons: it glows, but only lights emit them");

@@ -397,6 +397,8 @@ fn lights_without_photons_are_named() {
         &of_test.each_ref().map(String::as_str),
     );
     check(Language::Cse167, test, PATH, &[]);
+    let plain = xml("<attenuation value='2'/>").replace(" material='m'", "");
+    check(Language::Xml, &plain, PHOTON, &[]);
 }
 
 #[test]

@@ -315,7 +315,7 @@ fn one_object_gets_a_value_of_its_own() {
             Node::Material(0),
             "ambient",
             &[(1, "0")],
-            "ambient 0.2 0 0.2\nsphere 0 0 0 1\nsphere 2 0 0 1",
+            "ambient 0.2 0 0.2\nsphere 0 0 0 1\nsphere 2 0 0 1\nambient 0.2 0.2 0.2",
         ),
         // A mesh of several lines.
         (
@@ -326,8 +326,106 @@ fn one_object_gets_a_value_of_its_own() {
             "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nemission .1 .2 0\ntri 0 1 2\nvertex 1 1 0\n\
              tri 1 3 2\nemission 0 0 0\nsphere 0 0 0 1\n",
         ),
+        // A name above, and a push and pop of its own.
+        (
+            "diffuse 1 1 1\n# sun\nsphere 0 0 0 1\n# moon\nsphere 2 0 0 1\n",
+            BALL,
+            "diffuse",
+            &[(2, "0")],
+            "diffuse 1 1 1\ndiffuse 1 1 0\n# sun\nsphere 0 0 0 1\ndiffuse 1 1 1\n# moon\nsphere 2 0 0 1\n",
+        ),
+        (
+            "pushTransform\n\tscale 1 2 1\n\tsphere 0 0 0 1\npopTransform\nsphere 2 0 0 1\n",
+            BALL,
+            "diffuse",
+            &[(2, "1")],
+            "diffuse 0 0 1\npushTransform\n\tscale 1 2 1\n\tsphere 0 0 0 1\npopTransform\n\
+             diffuse 0 0 0\nsphere 2 0 0 1\n",
+        ),
+        // The same value.
+        (two, BALL, "diffuse", &[(0, ".5")], two),
     ] {
         check(own, set(node, key, values), expected);
+    }
+}
+
+#[test]
+fn values_of_its_own_go_with_an_object() {
+    let own = "diffuse 1 1 1\nsphere 2 0 0 1\ndiffuse 0 0 1\nsphere 0 0 0 1\ndiffuse 1 1 1\nsphere 4 0 0 1\n";
+    let removed = |source: &crate::Source| source.removal(&[Node::Object(1)]).expect("it goes");
+    check(
+        own,
+        removed,
+        "diffuse 1 1 1\nsphere 2 0 0 1\nsphere 4 0 0 1\n",
+    );
+    // Another value is in force behind it.
+    let other = own.replace("diffuse 1 1 1\nsphere 4", "diffuse 1 0 1\nsphere 4");
+    check(&other, removed, &other.replace("sphere 0 0 0 1\n", ""));
+}
+
+/// Nodes that are set together: a material and its objects, and materials with a command in common.
+#[test]
+fn a_command_in_common_is_changed_once() {
+    let red = "diffuse 1 0 0\nsphere 0 0 0 1\nsphere 2 0 0 1\n";
+    let shared = "specular 1 0 0\ndiffuse 1 0 0\nsphere 0 0 0 1\ndiffuse 0 1 0\nsphere 2 0 0 1\n";
+    let [material, other] = [0, 1].map(Node::Material);
+    for (own, nodes, key, expected) in [
+        (
+            red,
+            [material, BALL],
+            "diffuse",
+            red.replace("1 0 0\nsphere 0", "0 0 0\nsphere 0"),
+        ),
+        (
+            red,
+            [material, BALL],
+            "emission",
+            format!(
+                "{}emission 1 0 0\nsphere 0 0 0 1\nsphere 2 0 0 1\nemission 0 0 0\n",
+                "diffuse 1 0 0\n"
+            ),
+        ),
+        (
+            "diffuse 1 0 0\nsphere 0 0 0 1\n",
+            [material, BALL],
+            "diffuse",
+            "diffuse 0 0 0\nsphere 0 0 0 1\n".to_owned(),
+        ),
+        (
+            shared,
+            [material, other],
+            "specular",
+            shared.replace("specular 1", "specular 0"),
+        ),
+    ] {
+        let set = |source: &crate::Source| {
+            let fields: Vec<_> = nodes.iter().flat_map(|node| source.fields(*node)).collect();
+            let fields = fields.iter().filter(|placed| placed.field.key == key);
+            let literal = if key == "emission" { "1" } else { "0" };
+            let wanted: Vec<_> = fields
+                .map(|placed| (placed, vec![(0, literal.to_owned())]))
+                .collect();
+            source.edits(&wanted)
+        };
+        check(own, set, &expected);
+    }
+}
+
+#[test]
+fn values_of_a_material_have_an_order_of_their_own() {
+    let (source, _) = read(&format!(
+        "{HEAD}shininess 3\ndiffuse 1 0 0\nsphere 0 0 0 1\n"
+    ));
+    for node in [Node::Material(0), BALL] {
+        let keys: Vec<_> = source
+            .fields(node)
+            .iter()
+            .map(|placed| placed.field.key)
+            .collect();
+        assert!(
+            keys.ends_with(&["ambient", "diffuse", "specular", "emission", "shininess"]),
+            "{keys:?}"
+        );
     }
 }
 
