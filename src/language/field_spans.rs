@@ -21,9 +21,7 @@ pub struct FieldSpans {
 /// The implicit part of a field, and how to insert it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Implicit {
-    /// The default of each component; `None` if the text states it.
-    pub(super) defaults: Vec<Option<Cow<'static, str>>>,
-    /// The attributes to write, in this order.
+    /// The missing attributes, in the order of the components.
     pub(super) attributes: Vec<ImplicitAttribute>,
     /// The element to write them in, if that is missing too.
     pub(super) element: Option<&'static str>,
@@ -77,7 +75,9 @@ impl FieldSpans {
 
     /// The default of a component that the text omits.
     pub fn default_of(&self, component: usize) -> Option<&str> {
-        self.implicit.as_ref()?.defaults.get(component)?.as_deref()
+        let missing = &self.implicit.as_ref()?.attributes;
+        let own = missing.iter().find(|own| own.component == component);
+        own.map(|own| &*own.default)
     }
 
     /// Whether the text states any of the components.
@@ -119,8 +119,18 @@ pub(super) fn insertions(
 }
 
 impl Insertion {
+    /// An insertion without anything around it.
+    pub(super) fn at(offset: usize) -> Self {
+        Self {
+            span: Span::at(offset),
+            before: Vec::new(),
+            between: Vec::new(),
+            after: Vec::new(),
+        }
+    }
+
     /// The edit that inserts all of these here.
-    fn edit(&self, text: &str, all: &[String]) -> Edit {
+    pub(super) fn edit(&self, text: &str, all: &[String]) -> Edit {
         let copied = |pieces: &[Piece]| -> String {
             let pieces = pieces.iter().map(|piece| match piece {
                 Piece::Literal(literal) => literal,

@@ -1,6 +1,5 @@
 //! Render settings in a text, in the place that other readers of its language skip, for all languages.
 
-use std::borrow::Cow;
 use std::sync::LazyLock;
 
 use super::field_spans::{FieldSpans, Implicit, ImplicitAttribute, Insertion, Piece, Wanted};
@@ -299,16 +298,14 @@ pub(super) fn fields(
         if let Some(part) = part {
             return FieldSpans::explicit(field, vec![part.value]);
         }
-        let default = Cow::from(key.value(&effective));
         FieldSpans {
             field,
             spans: vec![Span::at(insertion.span.start())],
             implicit: Some(Box::new(Implicit {
-                defaults: vec![Some(default.clone())],
                 attributes: vec![ImplicitAttribute {
                     component: 0,
                     name: field.key,
-                    default,
+                    default: key.value(&effective).into(),
                     is_required: false,
                 }],
                 element,
@@ -328,17 +325,11 @@ pub(super) fn insertion(
     line_ending: &'static str,
 ) -> Insertion {
     match place {
-        Some(place) => Insertion {
-            span: Span::at(place.whole.end()),
-            before: Vec::new(),
-            between: Vec::new(),
-            after: Vec::new(),
-        },
+        Some(place) => Insertion::at(place.whole.end()),
         None => Insertion {
-            span: Span::at(start),
             before: vec![Piece::Literal(opening)],
-            between: Vec::new(),
             after: vec![Piece::Literal(line_ending)],
+            ..Insertion::at(start)
         },
     }
 }

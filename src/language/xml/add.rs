@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::Source;
-use super::table::{LightKind, MaterialKind, ObjectKind};
+use super::schema::{OBJ, class_of};
 use super::tree::escaped;
+use crate::schema::Category;
 use crate::structure::NewNode;
 use crate::view::line_ending;
 use crate::{Addition, Node, Placement, SceneText, StructureEdits, StructureError};
@@ -64,7 +65,8 @@ pub(super) fn addition(
         _ => source.object(name, wish, &vector),
     };
     let text = lines.join(line_ending(&source.text));
-    let needs_material = matches!(name, "sphere" | "plane") && source.origins.materials.is_empty();
+    let needs_material =
+        matches!(name, "sphere" | "plane") && source.origins.of(Category::Material).is_empty();
     let placement = source.insertion(&text, wish.after)?;
     if !needs_material {
         return Ok(placement);
@@ -96,16 +98,13 @@ pub(super) fn material(kind: &str, name: &str) -> Vec<String> {
 
 /// The words for the kinds that a node can be changed to.
 pub(super) fn kinds(node: Node) -> Vec<&'static str> {
-    match node {
-        // A mesh is named by its file, which nothing else has.
-        Node::Object(_) => {
-            let types = ObjectKind::TYPES.iter().copied();
-            types.filter(|kind| *kind != "obj").collect()
-        }
-        Node::Light(_) => LightKind::TYPES.into(),
-        Node::Material(_) => MaterialKind::TYPES.into(),
-        _ => Vec::new(),
-    }
+    let class = node.category().and_then(|(category, _)| class_of(category));
+    let kinds = class.map_or(&[][..], |class| class.kinds).iter();
+    // A mesh is named by its file, which nothing else has.
+    kinds
+        .map(|kind| kind.word)
+        .filter(|word| *word != OBJ.word)
+        .collect()
 }
 
 /// Returns the edits that change a node's type; its elements stay.
@@ -130,7 +129,7 @@ impl Source {
         vector: &dyn Fn(&str, DVec3) -> String,
     ) -> Vec<String> {
         let beside = match wish.after {
-            Node::Object(_) => self.origins.element(&self.tree, wish.after),
+            Node::Object(_) => self.element(wish.after),
             _ => None,
         };
         let inside = beside.map(|element| self.outside(element).inverse());
@@ -146,7 +145,10 @@ impl Source {
             Node::Object(index) => self.material(index),
             _ => None,
         };
-        let material = self.origins.materials.get(selected.unwrap_or(0));
+        let material = self
+            .origins
+            .of(Category::Material)
+            .get(selected.unwrap_or(0));
         let material = material.map_or(Some("blinn"), |place| place.name.as_deref());
         let material = material.filter(|_| matches!(name, "sphere" | "plane"));
         let material = material.map(|name| format!(" material=\"{}\"", escaped(name, '"')));

@@ -41,7 +41,7 @@ impl<'a> Lowering<'a> {
         frame: Option<DAffine3>,
         material: Option<usize>,
     ) -> Option<(Shape, usize)> {
-        let element = self.origins.objects[object].element as usize;
+        let element = self.origins.objects()[object].element as usize;
         let named = self.named_mesh(object, element)?;
         let model = self.model(named)?;
         // An object's own material counts even if it is not defined.

@@ -4,7 +4,8 @@ use glam::{DAffine3, DVec3};
 
 use super::Lowering;
 use crate::xml::origins::{NamedPlace, What};
-use crate::xml::table::{CHECKER, Parameter, Texturing};
+use crate::xml::parameter::Parameter;
+use crate::xml::schema::CHECKER;
 use scene::{Pattern, Side, Texture, Tinted};
 use text::Diagnostic;
 
@@ -76,17 +77,13 @@ impl Lowering<'_> {
         pending: &mut Vec<Square>,
     ) -> Option<u32> {
         let attribute = self.origins.attribute(self.tree, element, "texture");
-        let attribute = attribute.filter(|_| parameter.texture == Texturing::Yes)?;
+        let attribute = attribute.filter(|_| parameter.may_have_texture)?;
         let value = &self.tree.attributes[attribute];
         let (word, span) = (value.unescaped(self.text), value.value);
         if word.is_empty() {
             let message = || "texture: the name is missing".to_owned();
-            self.warn(
-                span,
-                message,
-                "checkerboard, or a picture file",
-                "the texture is ignored",
-            );
+            let (expected, hint) = ("checkerboard, or a picture file", "the texture is ignored");
+            self.warn(span, message, expected, hint);
             return None;
         }
         let texture = self.textures.len();

@@ -5,7 +5,9 @@ use glam::DVec3;
 use super::Lowering;
 use crate::report::{number_of, out_of_range};
 use crate::schema::{Field, Kind};
-use crate::xml::table::{Attributes, Extra, Parameter};
+use crate::xml::parameter::{Attributes, Parameter, Single};
+use crate::xml::tree::Attribute;
+use scene::Transfer;
 use text::{Diagnostic, Findings, Span, is_integer};
 
 impl<'a> Lowering<'a> {
@@ -24,24 +26,28 @@ impl<'a> Lowering<'a> {
 
     /// A word stated by an element; `None` if missing.
     pub(super) fn word(&self, element: usize, word: &str) -> Option<&'a str> {
-        let at = self.origins.attribute(self.tree, element, word)?;
-        let word = self.tree.attributes[at].unescaped(self.text);
+        let word = self.value(element, word)?.unescaped(self.text);
         (!word.is_empty()).then_some(word)
     }
 
+    /// The attribute of an element with this name.
+    pub(super) fn value(&self, element: usize, word: &str) -> Option<&'a Attribute> {
+        self.origins.value(self.tree, element, word)
+    }
+
     /// The name of an attribute's number in messages.
-    fn what(&self, element: usize, attribute: usize) -> String {
+    fn what(&self, element: usize, attribute: &Attribute) -> String {
         let owner = self.display_name(element);
-        match self.tree.attributes[attribute].name.of(self.text) {
+        match attribute.name.of(self.text) {
             "value" => owner,
             name => format!("{owner} {name}"),
         }
     }
 
     /// The checked number of an attribute; NaN, with an error, if malformed.
-    fn number_at(&mut self, element: usize, attribute: usize, field: &Field) -> f64 {
-        let span = self.tree.attributes[attribute].value;
-        let word = self.tree.attributes[attribute].unescaped(self.text).trim();
+    fn number_at(&mut self, element: usize, attribute: &Attribute, field: &Field) -> f64 {
+        let span = attribute.value;
+        let word = attribute.unescaped(self.text).trim();
         let what = || self.what(element, attribute);
         let mut findings = Findings::default();
         let value = number_of(field, span, word, &mut findings, what);
@@ -74,7 +80,7 @@ impl<'a> Lowering<'a> {
         field: &Field,
         otherwise: &str,
     ) -> f64 {
-        match self.origins.attribute(self.tree, element, attribute) {
+        match self.value(element, attribute) {
             Some(at) => self.number_at(element, at, field),
             None => plain(otherwise),
         }
@@ -127,11 +133,10 @@ impl<'a> Lowering<'a> {
         parameter: &'static Parameter,
     ) -> (DVec3, f64) {
         let axis = self.vector_in(element, parameter);
-        let has_angle = self
-            .origins
-            .attribute(self.tree, element, "angle")
-            .is_some();
-        let angle = if has_angle { "angle" } else { "value" };
+        let angle = match self.value(element, "angle") {
+            Some(_) => "angle",
+            None => "value",
+        };
         let angle = self.number_or(element, angle, &parameter.field, "0");
         (axis, angle)
     }
@@ -141,14 +146,14 @@ impl<'a> Lowering<'a> {
         &mut self,
         holder: usize,
         parameter: &'static Parameter,
-        extra: &Extra,
+        extra: &Single,
     ) -> f64 {
         match self.element_of(Some(holder), parameter) {
             Some(element) => {
                 let missing = extra.missing(self.origins.transfer);
                 self.number_or(element, extra.attribute, &extra.field, missing)
             }
-            None => plain(extra.missing),
+            None => plain(extra.missing(Transfer::Linear)),
         }
     }
 
@@ -163,11 +168,9 @@ impl<'a> Lowering<'a> {
 
     /// All attributes of an element, or its name if it has none.
     pub(super) fn attributes_span(&self, element: usize) -> Span {
-        let own = &self.tree.attributes[self.tree.elements[element].attributes()];
-        match own {
+        match &self.tree.attributes[self.tree.elements[element].attributes()] {
             [] => self.place(element),
-            [first, .., last] => first.name.to(last.value),
-            [only] => only.name.to(only.value),
+            own @ [first, ..] => first.name.to(own[own.len() - 1].value),
         }
     }
 

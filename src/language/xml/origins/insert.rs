@@ -6,29 +6,26 @@ use text::Span;
 
 /// Where to insert another attribute of an element.
 pub(super) fn attribute(tree: &Tree, element: usize) -> Insertion {
-    let end = tree.elements[element].attributes_end as usize;
+    Insertion::at(tree.elements[element].attributes_end as usize)
+}
+
+/// Where to insert another child: after the last one with its indentation, or as the first one.
+pub(super) fn child(tree: &Tree, parent: usize) -> Insertion {
+    let Some(last) = tree.children(parent).last() else {
+        return first(tree, parent);
+    };
+    let last = &tree.elements[last];
+    let before = vec![Piece::Copy(last.lead)];
     Insertion {
-        span: Span::at(end),
-        before: Vec::new(),
-        between: Vec::new(),
-        after: Vec::new(),
+        between: before.clone(),
+        before,
+        ..Insertion::at(last.whole.end())
     }
 }
 
-/// Where to insert another child: after the last one with its indentation, or as the first one,
-/// indented by two blanks more than the parent.
-pub(super) fn child(tree: &Tree, parent: usize) -> Insertion {
+/// Where to insert the first child, indented by two blanks more than its parent.
+pub(in crate::xml) fn first(tree: &Tree, parent: usize) -> Insertion {
     let own = &tree.elements[parent];
-    if let Some(last) = tree.children(parent).last() {
-        let last = &tree.elements[last];
-        let before = vec![Piece::Copy(last.lead)];
-        return Insertion {
-            span: Span::at(last.whole.end()),
-            between: before.clone(),
-            before,
-            after: Vec::new(),
-        };
-    }
     let mut between = vec![Piece::Copy(own.lead)];
     if !own.lead.is_empty() {
         between.push(Piece::Literal("  "));

@@ -15,7 +15,7 @@ use roxmltree::{Document, Error, Node, NodeType, ParsingOptions};
 
 use crate::words::{skip_white_space, white_space};
 use crate::written::Parse;
-use text::{Diagnostic, Span};
+use text::{Diagnostic, Edit, Span};
 
 /// The elements and comments of a text, each in text order.
 #[derive(Clone, Debug, Default)]
@@ -220,6 +220,14 @@ pub(super) fn quote(text: &str, value: Span) -> char {
         '\''
     } else {
         '"'
+    }
+}
+
+/// The edit that replaces a value.
+pub(super) fn respelled(text: &str, span: Span, value: &str) -> Edit {
+    Edit {
+        span,
+        text: escaped(value, quote(text, span)).into_owned(),
     }
 }
 
