@@ -8,7 +8,7 @@ use super::origins::fields::numbers;
 use super::origins::{Role, insert};
 use crate::field_spans::FieldSpans;
 use crate::form::{Along, Motion, PRECISE, rotation, rounded};
-use crate::structure::{Pose, number, replacements};
+use crate::structure::{Pose, number};
 use crate::view::spelled;
 use crate::{Node, SceneText, StructureError};
 use geometry::normalise;
@@ -57,11 +57,7 @@ impl Source {
             Node::Object(_) => {
                 let element = self.element(node)?;
                 let world = self.outside(element) * self.local(element);
-                let axes = [
-                    world.matrix3.x_axis,
-                    world.matrix3.y_axis,
-                    world.matrix3.z_axis,
-                ];
+                let axes = [world.x_axis, world.y_axis, world.z_axis];
                 Some(Pose {
                     centre: world.translation,
                     axes: axes.map(|axis| normalise(axis).unwrap_or(DVec3::X)),
@@ -101,8 +97,10 @@ impl Source {
             let factor = numbers.get(3).copied().unwrap_or(1.0);
             let old = factor * DVec3::from_slice(&numbers);
             let new = moved(motion, old);
-            let [old, new] = [old, new].map(|vector| (vector / factor).to_array());
-            Some(self.respelled(&placed, (&old, &new), decimals, spelled))
+            let [old, new] = [old, new].map(|vector| vector / factor);
+            let new = [0, 1, 2].map(|at| rounded(old[at], new[at], decimals));
+            let changed = self.changed(&placed, &old.to_array(), &new, spelled);
+            Some(self.edits(&[(&placed, changed)]))
         });
         edits.flatten().collect()
     }
@@ -125,25 +123,21 @@ impl Source {
         placed.spans.iter().enumerate().map(number).collect()
     }
 
-    /// The edits that change numbers of a field, rounded to this number of decimals. `spelled` are
-    /// those that are missing in the text.
-    fn respelled(
+    /// The values that change numbers of a field. `spelled` are those that are missing in the text.
+    pub(super) fn changed(
         &self,
         placed: &FieldSpans,
-        (old, new): (&[f64], &[f64]),
-        decimals: usize,
+        old: &[f64],
+        new: &[f64],
         spelled: fn(f64) -> String,
-    ) -> Vec<Edit> {
-        let values = old.iter().zip(new).enumerate();
-        let values = values.filter_map(|(at, (old, new))| {
-            let new = rounded(*old, *new, decimals);
-            let literal = || match placed.default_of(at) {
-                Some(_) => spelled(new),
-                None => spell_like(placed.spans[at].of(&self.text).trim(), new),
-            };
-            (*old != new).then(|| (at, literal()))
+    ) -> Vec<(usize, String)> {
+        let changed = old.iter().zip(new).enumerate();
+        let changed = changed.filter(|(_, (old, new))| old != new);
+        let values = changed.map(|(at, (_, &new))| match placed.default_of(at) {
+            Some(_) => (at, spelled(new)),
+            None => (at, spell_like(placed.spans[at].of(&self.text).trim(), new)),
         });
-        self.edits(&[(placed, values.collect())])
+        values.collect()
     }
 
     fn moved_object(
@@ -158,57 +152,44 @@ impl Source {
         let inside = outside.inverse();
         let transforms = self.transforms(element);
         let last = transforms.last().filter(|last| last.is("translate"));
+        let linear = transforms.len() - usize::from(last.is_some());
+        let linear = transforms[..linear].last();
         let origin = last.map_or(DVec3::ZERO, Transform::vector);
         let point =
             |point: DVec3| inside.transform_point3(motion.point(outside.transform_point3(point)));
-        match *motion {
-            Motion::Move(_) => self.placed(element, last, point(origin), decimals),
+        let mut edits = match *motion {
+            Motion::Move(_) => Vec::new(),
             Motion::Rotate { axis, angle, .. } => {
                 let uneven =
                     || refused("its group is scaled non-uniformly: rotate the group instead");
                 let local = conformal(outside.matrix3).ok_or_else(uneven)?;
                 let axis = normalise(inside.matrix3 * axis).ok_or_else(uneven)?;
                 let turn = rotation(axis, local.signum() * angle);
-                let mut edits = self.turned(element, &transforms, turn);
-                edits.extend(self.placed(element, last, point(origin), decimals)?);
-                Ok(sorted(edits))
-            }
-            Motion::Scale {
-                factor,
-                along: Along::Own(axis),
-                ..
-            } => {
-                let mut factors = DVec3::ONE;
-                factors[axis] = factor;
-                let first = transforms.first();
-                Ok(self.scaled(element, first, first, factors, decimals))
+                self.turned(element, (linear, last), turn)
             }
             Motion::Scale { factor, along, .. } => {
-                let factors = match along {
+                let mut factors = DVec3::ONE;
+                match along {
+                    Along::All => factors = DVec3::splat(factor),
+                    Along::Own(axis) => {
+                        factors[axis] = factor;
+                        let first = transforms.first();
+                        return Ok(self.scaled(element, (first, first), factors, decimals));
+                    }
                     Along::World(axis) => {
                         let local = inside.matrix3 * DVec3::AXES[axis];
                         let local = normalise(local).unwrap_or(DVec3::X).abs();
                         let own = (0..3).find(|&own| 1.0 - local[own] < 1e-9);
-                        let turned = || {
-                            refused(
-                                "its group is rotated: press the axis key again for its own axis",
-                            )
-                        };
-                        let own = own.ok_or_else(turned)?;
-                        let mut factors = DVec3::ONE;
-                        factors[own] = factor;
-                        factors
+                        let turned =
+                            "its group is rotated: press the axis key again for its own axis";
+                        factors[own.ok_or_else(|| refused(turned))?] = factor;
                     }
-                    Along::All | Along::Own(_) => DVec3::splat(factor),
-                };
-                let linear = transforms.len() - usize::from(last.is_some());
-                let at = transforms[..linear].last();
-                let scale = at.filter(|at| at.is("scale"));
-                let mut edits = self.scaled(element, scale, last, factors, decimals);
-                edits.extend(self.placed(element, last, point(origin), decimals)?);
-                Ok(sorted(edits))
+                }
+                self.scaled(element, (linear, last), factors, decimals)
             }
-        }
+        };
+        edits.extend(self.placed(element, last, point(origin), decimals)?);
+        Ok(edits)
     }
 
     /// The edits that put an object's last translation at a point.
@@ -222,29 +203,30 @@ impl Source {
         if !point.is_finite() {
             return Err(refused("the position is out of range"));
         }
-        Ok(if let Some(last) = last {
-            self.set(last, point, decimals)
-        } else {
-            let point = point
-                .to_array()
-                .map(|number| rounded(0.0, number, decimals));
-            if point == [0.0; 3] {
-                return Ok(Vec::new());
-            }
-            let attributes = attributes(&["x", "y", "z"], &point, 0.0);
-            vec![self.inserted(element, None, &format!("<translate{attributes}/>"))]
-        })
+        if let Some(last) = last {
+            return Ok(self.set(last, point, decimals));
+        }
+        let point = point.to_array();
+        let point = point.map(|number| rounded(0.0, number, decimals));
+        if point == [0.0; 3] {
+            return Ok(Vec::new());
+        }
+        let attributes = attributes(&["x", "y", "z"], &point, 0.0);
+        let markup = format!("<translate{attributes}/>");
+        Ok(vec![self.inserted(element, None, &markup)])
     }
 
-    /// The edits that rotate an object before its last translation.
-    fn turned(&self, element: usize, transforms: &[Transform], turn: DMat3) -> Vec<Edit> {
-        let last = transforms.last().filter(|last| last.is("translate"));
-        let linear = &transforms[..transforms.len() - usize::from(last.is_some())];
-        let old = linear.last().filter(|old| old.is("rotate"));
-        let before = old.map_or(DMat3::IDENTITY, |old| old.matrix().matrix3);
-        let (axis, angle) = DQuat::from_mat3(&(turn * before))
-            .normalize()
-            .to_axis_angle();
+    /// The edits that rotate an object by a rotation, or write one before another transform.
+    fn turned(
+        &self,
+        element: usize,
+        (old, before): (Option<&Transform>, Option<&Transform>),
+        turn: DMat3,
+    ) -> Vec<Edit> {
+        let old = old.filter(|old| old.is("rotate"));
+        let known = old.map_or(DMat3::IDENTITY, |old| old.matrix().matrix3);
+        let turn = DQuat::from_mat3(&(turn * known)).normalize();
+        let (axis, angle) = turn.to_axis_angle();
         let degrees = rounded(0.0, angle.to_degrees(), 12);
         let axis = axis.to_array().map(|number| rounded(0.0, number, PRECISE));
         let [x, y, z] = axis;
@@ -253,7 +235,7 @@ impl Source {
         } else {
             let mut text = attributes(&["x", "y", "z"], &axis, 0.0);
             text.push_str(&attributes(&["angle"], &[degrees], f64::NAN));
-            vec![self.inserted(element, last, &format!("<rotate{text}/>"))]
+            vec![self.inserted(element, before, &format!("<rotate{text}/>"))]
         }
     }
 
@@ -261,8 +243,7 @@ impl Source {
     fn scaled(
         &self,
         element: usize,
-        scale: Option<&Transform>,
-        before: Option<&Transform>,
+        (scale, before): (Option<&Transform>, Option<&Transform>),
         factors: DVec3,
         decimals: usize,
     ) -> Vec<Edit> {
@@ -288,14 +269,15 @@ impl Source {
 
     /// The edits that multiply all parts of a scale, by its factor if it has one.
     fn scaled_evenly(&self, scale: &Transform, factor: f64, decimals: usize) -> Vec<Edit> {
-        let new = rounded(scale.factor(), factor * scale.factor(), decimals);
-        if let Some(value) = scale.placed.spans.get(3) {
-            return replacements(&self.text, &[*value], &[new]);
+        let mut new = scale.numbers.clone();
+        if let Some(own) = new.get_mut(3) {
+            *own *= factor;
+            return self.set_numbers(scale, &new, decimals);
         }
         let end = self.tree.elements[scale.element].attributes_end as usize;
         vec![Edit {
             span: Span::at(end),
-            text: attributes(&["value"], &[new], 1.0),
+            text: attributes(&["value"], &[rounded(1.0, factor, decimals)], 1.0),
         }]
     }
 
@@ -308,9 +290,13 @@ impl Source {
 
     fn set_numbers(&self, transform: &Transform, new: &[f64], decimals: usize) -> Vec<Edit> {
         let old = &transform.numbers;
-        self.respelled(&transform.placed, (old, new), decimals, |new| {
-            new.to_string()
-        })
+        let new = old
+            .iter()
+            .zip(new)
+            .map(|(old, new)| rounded(*old, *new, decimals));
+        let new: Vec<_> = new.collect();
+        let changed = self.changed(&transform.placed, old, &new, |new| new.to_string());
+        self.edits(&[(&transform.placed, changed)])
     }
 
     /// The edit that writes a transform before another one, or after the last.
@@ -391,11 +377,6 @@ fn attributes(names: &[&str], numbers: &[f64], default: f64) -> String {
         .map(|(name, number)| format!(" {name}=\"{number}\""))
         .collect();
     written.concat()
-}
-
-fn sorted(mut edits: Vec<Edit>) -> Vec<Edit> {
-    Edit::sort(&mut edits);
-    edits
 }
 
 fn refused(reason: &str) -> StructureError {

@@ -140,17 +140,23 @@ impl Attributes {
 
 impl Parameter {
     const fn new(
-        (reading, inside): (Attributes, &'static str),
+        reading: Attributes,
+        inside: &'static str,
         missing: &'static [&'static str],
-        [field, scaled]: [Field; 2],
+        field: Field,
     ) -> Self {
+        let kind = match reading {
+            Attributes::Vector | Attributes::Rotation => Kind::ScaledVector,
+            Attributes::Colour => Kind::ScaledColour,
+            Attributes::Number => field.kind,
+        };
         Self {
             element: field.key,
             reading,
             inside,
             missing,
             field,
-            scaled,
+            scaled: Field { kind, ..field },
             extras: &[],
             may_have_texture: false,
         }
@@ -162,13 +168,7 @@ impl Parameter {
         missing: &'static [&'static str; 3],
         doc: &'static str,
     ) -> Self {
-        let field = Field::point(element, doc);
-        let kind = Kind::ScaledVector;
-        Self::new(
-            (Attributes::Vector, "0"),
-            missing,
-            [field, Field { kind, ..field }],
-        )
+        Self::new(Attributes::Vector, "0", missing, Field::point(element, doc))
     }
 
     /// A colour.
@@ -177,35 +177,23 @@ impl Parameter {
         missing: &'static [&'static str; 3],
         doc: &'static str,
     ) -> Self {
-        let field = Field::colour(element, doc);
-        let kind = Kind::ScaledColour;
         Self::new(
-            (Attributes::Colour, "1"),
+            Attributes::Colour,
+            "1",
             missing,
-            [field, Field { kind, ..field }],
+            Field::colour(element, doc),
         )
     }
 
     /// A number.
     pub(super) const fn number(missing: &'static [&'static str; 1], field: Field) -> Self {
-        Self::new((Attributes::Number, missing[0]), missing, [field, field])
+        Self::new(Attributes::Number, missing[0], missing, field)
     }
 
     /// An axis and an angle.
-    pub(super) const fn rotation(
-        element: &'static str,
-        missing: &'static [&'static str; 3],
-        doc: &'static str,
-    ) -> Self {
-        let axis = Self::vector(element, missing, doc);
-        Self {
-            reading: Attributes::Rotation,
-            field: Field {
-                kind: Kind::Rotation,
-                ..axis.field
-            },
-            ..axis
-        }
+    pub(super) const fn rotation(missing: &'static [&'static str; 3], field: Field) -> Self {
+        let kind = Kind::Rotation;
+        Self::new(Attributes::Rotation, "0", missing, Field { kind, ..field })
     }
 
     /// With an optional texture.

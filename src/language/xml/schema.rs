@@ -156,7 +156,7 @@ pub(super) const GROUP: Type = Type { word: "group", parameters: &[] };
 /// The transforms, applied in the order of the text.
 pub(super) const TRANSFORMS: &[&Parameter] = &[
     &Parameter::vector("scale", ONE, "The scale factor along each axis.").bare("1"),
-    &Parameter::rotation("rotate", ZERO, "The axis it is turned about, and how far."),
+    &Parameter::rotation(ZERO, Field::point("rotate", "The axis it is turned about, and how far.")),
     &Parameter::vector("translate", ZERO, "How far it is moved."),
 ];
 

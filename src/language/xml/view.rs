@@ -8,9 +8,9 @@ use super::schema::CAMERA;
 use crate::SceneText;
 use crate::field_spans::FieldSpans;
 use crate::schema::Field;
-use crate::view::{Numbers, literal, take};
+use crate::view::{Numbers, spelled, take};
 use scene::{Camera, Focus, Lens, Size};
-use text::{Edit, spell_like};
+use text::Edit;
 
 /// The fields of the view that belong to the camera.
 pub(super) fn fields(origins: &Origins) -> impl Iterator<Item = &'static Field> {
@@ -102,7 +102,7 @@ pub(super) fn edits(
     before: &Camera,
     camera: &Camera,
 ) -> Vec<Edit> {
-    let (text, origins) = (&source.text, &source.origins);
+    let origins = &source.origins;
     let [mut old, new] = [before, camera].map(|camera| numbers_of(camera, origins));
     for (at, factor) in origins.factors.into_iter().enumerate() {
         // A vector that the text multiplies by 0 needs another factor.
@@ -110,21 +110,10 @@ pub(super) fn edits(
             old[at] = vec![f64::NAN; 4];
         }
     }
-    let wanted: Vec<_> = fields
-        .iter()
-        .zip(old.iter().zip(&new))
-        .map(|(placed, (old, new))| {
-            let components = old.iter().zip(new).enumerate();
-            let changed = components.filter(|(_, (old, new))| old != new);
-            let spelled = changed.map(|(component, (_, &number))| {
-                let spelled = match placed.default_of(component) {
-                    Some(_) => literal(placed.field, number),
-                    None => spell_like(placed.spans[component].of(text).trim(), number + 0.0),
-                };
-                (component, spelled)
-            });
-            (placed, spelled.collect())
-        })
-        .collect();
-    source.edits(&wanted)
+    let wanted = fields.iter().zip(old.iter().zip(&new));
+    let wanted = wanted.map(|(placed, (old, new))| {
+        let new: Vec<_> = new.iter().map(|number| number + 0.0).collect();
+        (placed, source.changed(placed, old, &new, spelled))
+    });
+    source.edits(&wanted.collect::<Vec<_>>())
 }

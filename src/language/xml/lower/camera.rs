@@ -94,16 +94,11 @@ impl Lowering<'_> {
 
     /// Reads background and environment; `root` is the place of messages about a missing scene.
     pub(super) fn surroundings(&mut self, root: Span) {
-        let scene = self.origins.scene;
-        if scene.is_none() {
+        let Some(scene) = self.origins.scene else {
             let message = || "no `scene` element".to_owned();
-            self.warn(root, message, "`<scene>` in `<xml>`", "");
-        }
-        if let Some(element) = self.element_of(scene, &BACKGROUND) {
-            self.setting.background = self.tinted_in(element, &BACKGROUND);
-        }
-        if let Some(element) = self.element_of(scene, &ENVIRONMENT) {
-            self.setting.environment = self.tinted_in(element, &ENVIRONMENT);
-        }
+            return self.warn(root, message, "`<scene>` in `<xml>`", "");
+        };
+        self.setting.background = self.tinted(scene, &BACKGROUND);
+        self.setting.environment = self.tinted(scene, &ENVIRONMENT);
     }
 }

@@ -30,6 +30,7 @@ struct Named<'a> {
     object: usize,
     element: usize,
     attribute: usize,
+    span: Span,
     name: &'a str,
 }
 
@@ -77,6 +78,7 @@ impl<'a> Lowering<'a> {
                 object,
                 element,
                 attribute,
+                span: self.tree.attributes[attribute].value,
                 name,
             });
         }
@@ -97,14 +99,13 @@ impl<'a> Lowering<'a> {
                 Some(model)
             }
             Err(NoMesh::Unread { reason, hint }) => {
-                let span = self.tree.attributes[named.attribute].value;
                 let object = self.origins.name(Node::Object(named.object));
                 let hint = match hint {
                     Some(hint) => format!("{LEFT_OUT}; {hint}"),
                     None => LEFT_OUT.to_owned(),
                 };
                 let message = || format!("{object}: {reason}");
-                self.warn(span, message, EXPECTED, &hint);
+                self.warn(named.span, message, EXPECTED, &hint);
                 None
             }
             Err(NoMesh::Malformed(findings)) => {
@@ -113,10 +114,9 @@ impl<'a> Lowering<'a> {
                     self.warn_of(named, lines);
                 }
                 let object = self.origins.name(Node::Object(named.object));
-                let span = self.tree.attributes[named.attribute].value;
                 self.report.warning(|| Diagnostic {
                     message: format!("{object}: {}", reason.message),
-                    ..cited(span, named.name, reason).with_hint(LEFT_OUT)
+                    ..cited(named.span, named.name, reason).with_hint(LEFT_OUT)
                 });
                 None
             }
@@ -125,9 +125,9 @@ impl<'a> Lowering<'a> {
 
     /// Warns of problems of a mesh and its libraries, at their own places.
     fn warn_of(&mut self, named: Named<'a>, findings: &[Finding]) {
-        let span = self.tree.attributes[named.attribute].value;
         for finding in findings {
-            self.report.warning(|| cited(span, named.name, finding));
+            self.report
+                .warning(|| cited(named.span, named.name, finding));
         }
     }
 

@@ -65,7 +65,7 @@ impl Lowering<'_> {
             };
             let one = match parameter.element {
                 "scale" => {
-                    let scale = self.vector_in(child, parameter);
+                    let scale = self.vector_in(Some(child), parameter);
                     if scale.to_array().contains(&0.0) {
                         self.flat(child);
                     }
@@ -75,7 +75,7 @@ impl Lowering<'_> {
                     let (axis, angle) = self.rotation_in(child, parameter);
                     self.rotation(child, axis, angle)
                 }
-                _ => DAffine3::from_translation(self.vector_in(child, parameter)),
+                _ => DAffine3::from_translation(self.vector_in(Some(child), parameter)),
             };
             all = Some(all.map_or(one, |before| one * before));
         }

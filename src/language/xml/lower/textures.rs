@@ -23,20 +23,10 @@ struct Square {
 impl Lowering<'_> {
     /// The colour of an element's parameter, with its texture, or the default.
     pub(super) fn tinted(&mut self, holder: usize, parameter: &'static Parameter) -> Tinted {
-        match self.element_of(Some(holder), parameter) {
-            Some(element) => self.tinted_in(element, parameter),
-            None => Tinted {
-                colour: self.vector(None, parameter),
-                texture: None,
-            },
-        }
-    }
-
-    /// The colour stated by an element, with its texture.
-    pub(super) fn tinted_in(&mut self, element: usize, parameter: &'static Parameter) -> Tinted {
+        let element = self.element_of(Some(holder), parameter);
         Tinted {
             colour: self.vector_in(element, parameter),
-            texture: self.texture_in(element, parameter),
+            texture: element.and_then(|element| self.texture_in(element, parameter)),
         }
     }
 
@@ -59,7 +49,7 @@ impl Lowering<'_> {
         while let Some(next) = pending.pop() {
             let colour = CHECKER[next.place];
             let tinted = Tinted {
-                colour: self.vector_in(next.element, colour),
+                colour: self.vector_in(Some(next.element), colour),
                 texture: self.one_texture(next.element, colour, &mut pending),
             };
             let pattern = &mut self.textures[next.texture].pattern;

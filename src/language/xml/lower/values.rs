@@ -89,26 +89,26 @@ impl<'a> Lowering<'a> {
     /// The number of a parameter, or its default.
     pub(super) fn number(&mut self, holder: Option<usize>, parameter: &'static Parameter) -> f64 {
         match self.element_of(holder, parameter) {
-            Some(element) => self.number_in(element, parameter),
+            Some(element) => self.number_or(element, "value", &parameter.field, parameter.inside),
             None => plain(parameter.missing[0]),
         }
     }
 
-    /// The number stated by an element.
-    pub(super) fn number_in(&mut self, element: usize, parameter: &'static Parameter) -> f64 {
-        self.number_or(element, "value", &parameter.field, parameter.inside)
-    }
-
     /// The vector or colour of a parameter, or its default.
     pub(super) fn vector(&mut self, holder: Option<usize>, parameter: &'static Parameter) -> DVec3 {
-        match self.element_of(holder, parameter) {
-            Some(element) => self.vector_in(element, parameter),
-            None => DVec3::from_array([0, 1, 2].map(|at| plain(parameter.missing[at]))),
-        }
+        let element = self.element_of(holder, parameter);
+        self.vector_in(element, parameter)
     }
 
-    /// The vector or colour stated by an element.
-    pub(super) fn vector_in(&mut self, element: usize, parameter: &'static Parameter) -> DVec3 {
+    /// The vector or colour stated by an element, or its default if there is none.
+    pub(super) fn vector_in(
+        &mut self,
+        element: Option<usize>,
+        parameter: &'static Parameter,
+    ) -> DVec3 {
+        let Some(element) = element else {
+            return DVec3::from_array([0, 1, 2].map(|at| plain(parameter.missing[at])));
+        };
         let names = parameter.reading.attributes();
         let field = &parameter.field;
         let [x, y, z] =
@@ -132,7 +132,7 @@ impl<'a> Lowering<'a> {
         element: usize,
         parameter: &'static Parameter,
     ) -> (DVec3, f64) {
-        let axis = self.vector_in(element, parameter);
+        let axis = self.vector_in(Some(element), parameter);
         let angle = match self.value(element, "angle") {
             Some(_) => "angle",
             None => "value",

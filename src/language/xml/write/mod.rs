@@ -15,7 +15,7 @@ use crate::losses::Losses;
 use crate::rendering::spelled;
 use crate::spelling;
 use crate::surroundings::angle;
-use scene::{Camera, Focus, Rgb, Scene, Setting, Size, Tinted};
+use scene::{Camera, Focus, Rgb, Scene, Setting, Size};
 
 /// Writes a scene and reports what it loses.
 pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
@@ -27,7 +27,8 @@ pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
     } = scene.setting;
     for (word, around) in [("background", background), ("environment", environment)] {
         if around.colour != Rgb::ZERO {
-            textures::tinted(&mut text, 4, word, around, scene);
+            let tint = (around.colour, around.texture);
+            textures::tinted(&mut text, (4, word), tint, scene);
         }
     }
     let is_baked = materials::is_baked(scene, losses);
@@ -36,7 +37,7 @@ pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
     materials::write(&mut text, scene, (&names, is_baked), losses);
     lights::write(&mut text, scene, is_baked, losses);
     text.push_str("  </scene>\n\n");
-    camera(&mut text, scene, angle(scene, losses));
+    camera(&mut text, &scene.camera, angle(scene, losses));
     let settings = spelled(&scene.setting.rendering);
     if !settings.is_empty() {
         element(&mut text, 2, "render", |text| {
@@ -49,7 +50,8 @@ pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
     text
 }
 
-fn camera(text: &mut String, scene: &Scene, angle: f64) {
+/// Writes a camera with this angle of view.
+pub(super) fn camera(text: &mut String, camera: &Camera, angle: f64) {
     text.push_str("  <camera>\n");
     let Camera {
         eye,
@@ -58,7 +60,7 @@ fn camera(text: &mut String, scene: &Scene, angle: f64) {
         focus,
         size: Size { width, height },
         ..
-    } = scene.camera;
+    } = *camera;
     for (word, vector) in [("position", eye), ("target", target), ("up", up)] {
         element(text, 4, word, |text| xyz(text, vector));
     }
@@ -73,10 +75,25 @@ fn camera(text: &mut String, scene: &Scene, angle: f64) {
 }
 
 /// Writes an empty element, indented by so many blanks.
-fn element(text: &mut String, indent: usize, word: &str, attributes: impl FnOnce(&mut String)) {
+pub(super) fn element(
+    text: &mut String,
+    indent: usize,
+    word: &str,
+    attributes: impl FnOnce(&mut String),
+) {
     open(text, indent, word);
     attributes(text);
     text.push_str("/>\n");
+}
+
+/// Begins an element of a kind, with a name if it has one.
+pub(super) fn begin(text: &mut String, element: &str, kind: &str, name: Option<&str>) {
+    open(text, 4, element);
+    word(text, "type", kind);
+    if let Some(name) = name {
+        word(text, "name", name);
+    }
+    text.push_str(">\n");
 }
 
 /// Begins the tag of an element.
@@ -86,11 +103,11 @@ fn open(text: &mut String, indent: usize, word: &str) {
 }
 
 /// Writes the attribute `value`.
-fn value(text: &mut String, number: f64) {
+pub(super) fn value(text: &mut String, number: f64) {
     attribute(text, "value", number);
 }
 
-pub(super) fn attribute(text: &mut String, name: &str, number: f64) {
+fn attribute(text: &mut String, name: &str, number: f64) {
     text.push(' ');
     text.push_str(name);
     text.push_str("=\"");
@@ -117,20 +134,12 @@ pub(super) fn xyz(text: &mut String, vector: DVec3) {
 }
 
 /// Writes a colour, a grey as one number.
-fn rgb(text: &mut String, colour: Rgb) {
+pub(super) fn rgb(text: &mut String, colour: Rgb) {
     if colour == Rgb::splat(colour.x) {
         value(text, colour.x);
     } else {
         for (name, number) in ["r", "g", "b"].into_iter().zip(colour.to_array()) {
             attribute(text, name, number);
         }
-    }
-}
-
-/// A colour without texture.
-fn plain(colour: Rgb) -> Tinted {
-    Tinted {
-        colour,
-        texture: None,
     }
 }
