@@ -35,22 +35,19 @@ impl Copies {
         if let Some(fault) = &tree.fault {
             return foreign(fault.message.clone());
         }
-        let mut found = 0;
-        for child in tree.children(0) {
-            let name = tree.elements[child].name.of(&text);
-            if !CATEGORIES.iter().any(|category| is(name, *category)) {
-                let name = visible(name);
-                return foreign(format!(
-                    "expected lights, materials or objects, not <{name}>"
-                ));
-            }
-            found += 1;
+        let is_known = |name: &str| CATEGORIES.iter().any(|category| is(name, *category));
+        let strange = tree
+            .children(0)
+            .map(|child| tree.elements[child].name.of(&text))
+            .find(|name| !is_known(name));
+        if let Some(name) = strange.map(visible) {
+            return foreign(format!(
+                "expected lights, materials or objects, not <{name}>"
+            ));
         }
-        let is_one = tree
-            .elements
-            .first()
-            .is_some_and(|root| root.whole.len() == text.len());
-        if found == 0 || !is_one {
+        let root = tree.elements.first();
+        let is_one = root.is_some_and(|root| root.whole.len() == text.len());
+        if tree.children(0).next().is_none() || !is_one {
             return foreign("expected elements of lights, materials or objects".to_owned());
         }
         Ok(Self { text, tree })

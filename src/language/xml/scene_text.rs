@@ -151,16 +151,16 @@ impl SceneText for Source {
             let attribute = tree.attributes.get(place.attribute)?;
             let owner = self.origins.name(self.origins.node_of(place.element)?);
             let name = tree.elements.get(place.element)?.name.of(text);
-            let (kind, what) = match &place.what {
-                What::Mesh => (FileKind::Mesh, owner),
-                What::Map(keyword, path) => {
-                    let what = format!("{owner} {keyword} {}", visible(path));
-                    (FileKind::Picture, what)
-                }
-                What::Texture if self.origins.owners[place.element] as usize == place.element => {
-                    (FileKind::Picture, format!("{name} texture"))
-                }
-                What::Texture => (FileKind::Picture, format!("{owner} {name} texture")),
+            let is_own = self.origins.owners[place.element] as usize == place.element;
+            let what = match &place.what {
+                What::Mesh => owner,
+                What::Map(keyword, path) => format!("{owner} {keyword} {}", visible(path)),
+                What::Texture if is_own => format!("{name} texture"),
+                What::Texture => format!("{owner} {name} texture"),
+            };
+            let kind = match place.what {
+                What::Mesh => FileKind::Mesh,
+                What::Map(..) | What::Texture => FileKind::Picture,
             };
             let path = match &place.what {
                 What::Map(_, path) => path,
@@ -201,8 +201,7 @@ impl SceneText for Source {
     }
 
     fn material(&self, object: usize) -> Option<usize> {
-        let material = self.origins.objects().get(object)?.material?;
-        Some(material as usize)
+        self.origins.objects().get(object)?.material
     }
 
     fn render_removal(&self, key: &str) -> Vec<Edit> {

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 
 use super::copies::{Copies, set_apart};
 use super::origins::Place;
-use super::schema::OBJ;
+use super::schema::{OBJ, class_of};
 use super::tree::{escaped, respelled};
 use super::{Source, add, roles};
 use crate::frame::frameless;
@@ -132,7 +132,7 @@ impl StructureEdits for Source {
         }];
         if let Node::Material(material) = node {
             let users = self.origins.objects().iter();
-            let users = users.filter(|place| place.material == Some(material as u32));
+            let users = users.filter(|place| place.material == Some(material));
             let values = users.filter_map(|place| self.value(place.element as usize, "material"));
             edits.extend(values.map(|value| respelled(&self.text, value.value, name)));
         }
@@ -158,16 +158,24 @@ impl StructureEdits for Source {
             return Err(uncreatable(category));
         }
         self.unused_material(name)?;
-        let text = add::material("blinn", name).join(line_ending(&self.text));
+        let text = add::material("blinn", name).replace('\n', line_ending(&self.text));
         self.insertion(&text, Node::View)
     }
 
     fn kinds(&self, node: Node) -> Vec<&'static str> {
-        add::kinds(node)
+        let class = node.category().and_then(|(category, _)| class_of(category));
+        let kinds = class.map_or(&[][..], |class| class.kinds).iter();
+        // A mesh is named by its file, which nothing else has.
+        let kinds = kinds.filter(|kind| ***kind != OBJ);
+        kinds.map(|kind| kind.word).collect()
     }
 
     fn retyping(&self, node: Node, kind: &str) -> Result<Vec<Edit>, StructureError> {
-        add::retyping(self, node, kind)
+        let fields = self.fields(node);
+        let field = fields.iter().find(|placed| placed.field.key == "type");
+        let fixed = || StructureError::Inexpressible(format!("{} has no type", self.name(node)));
+        let field = field.ok_or_else(fixed)?;
+        Ok(field.edits(self, &[(0, kind.to_owned())]))
     }
 
     fn pose(&self, node: Node) -> Option<Pose> {
@@ -269,7 +277,7 @@ impl Source {
             elements.iter().any(holds)
         };
         let users = self.origins.objects().iter().filter(|place| {
-            let material = place.material.map(|at| Node::Material(at as usize));
+            let material = place.material.map(Node::Material);
             material.is_some_and(|material| materials.contains(&material)) && !is_inside(place)
         });
         users.collect()

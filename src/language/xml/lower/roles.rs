@@ -11,6 +11,7 @@ use crate::xml::parameter::{Attributes, Class, Parameter, Type};
 use crate::xml::schema::{
     BACKGROUND, CAMERA, CHECKER, CLASSES, ENVIRONMENT, GAMMA, TRANSFORMS, WORDS, class_of,
 };
+use crate::xml::tree::Attribute;
 use text::{Diagnostic, Span, nearest_word, visible};
 
 /// The elements known in `xml` and in `scene`.
@@ -25,17 +26,12 @@ impl<'a> Lowering<'a> {
     /// a warning, and their content without.
     pub(super) fn find_roles(&mut self) {
         let tree = self.tree;
-        self.origins.words = tree
-            .attributes
-            .iter()
-            .map(|attribute| {
-                let name = attribute.name.of(self.text);
-                WORDS
-                    .iter()
-                    .position(|word| *word == name)
-                    .map_or(NO_WORD, |at| at as u8)
-            })
-            .collect();
+        let word = |attribute: &Attribute| {
+            let name = attribute.name.of(self.text);
+            let known = WORDS.iter().position(|word| *word == name);
+            known.map_or(NO_WORD, |at| at as u8)
+        };
+        self.origins.words = tree.attributes.iter().map(word).collect();
         let mut parameters: HashMap<(u32, &'static str), usize> = HashMap::new();
         for element in 0..tree.elements.len() {
             let parent = tree.elements[element].parent;
@@ -43,12 +39,12 @@ impl<'a> Lowering<'a> {
                 None => self.root(element),
                 Some(parent) => self.child(element, parent as usize),
             };
-            let owner = match (role, parent) {
+            let roles = &self.origins.roles;
+            let is_node =
+                |&parent: &u32| !matches!(roles[parent as usize], Role::Scene | Role::Root);
+            let owner = match (role, parent.filter(is_node)) {
                 (Role::Parameter(_) | Role::Transform(_) | Role::Skipped, Some(parent)) => {
-                    match self.origins.roles[parent as usize] {
-                        Role::Scene | Role::Root => element as u32,
-                        _ => self.origins.owners[parent as usize],
-                    }
+                    self.origins.owners[parent as usize]
                 }
                 _ => element as u32,
             };

@@ -51,7 +51,7 @@ pub(super) struct Place {
     /// Its name in the text.
     pub(super) name: Option<Box<str>>,
     /// The index of its material.
-    pub(super) material: Option<u32>,
+    pub(super) material: Option<usize>,
 }
 
 /// The place of an attribute that names a file.
@@ -112,7 +112,7 @@ impl Origins {
 
     /// Notes the material of an object.
     pub(super) fn set_material(&mut self, object: usize, material: Option<usize>) {
-        self.places[Category::Object as usize][object].material = material.map(|at| at as u32);
+        self.places[Category::Object as usize][object].material = material;
     }
 
     /// The place of a node of a category.

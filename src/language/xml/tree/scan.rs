@@ -60,25 +60,21 @@ pub(super) fn scan(text: &str) -> Scan {
                 name_spaces += 1;
                 if MOST_NAME_SPACES < name_spaces {
                     let span = Span::new(start + at, start + at + name.len());
-                    let message =
-                        format!("more than {MOST_NAME_SPACES} namespaces are not supported");
                     let expected = "elements without prefixes";
-                    return refuse(Diagnostic::error(span, message, expected));
+                    return refuse(too_many(span, MOST_NAME_SPACES, "namespaces", expected));
                 }
             }
+            let name = Span::new(start, start + name);
             if MOST_ATTRIBUTES < tag.matches('=').count() {
-                let span = Span::new(start, start + name);
-                let message = format!("more than {MOST_ATTRIBUTES} attributes are not supported");
-                return refuse(Diagnostic::error(span, message, "fewer attributes"));
+                let expected = "fewer attributes";
+                return refuse(too_many(name, MOST_ATTRIBUTES, "attributes", expected));
             }
             if !tag.ends_with("/>") {
                 if open.len() == MOST_LEVELS {
-                    let span = Span::new(start, start + name);
-                    let message =
-                        format!("more than {MOST_LEVELS} levels of elements are not supported");
-                    return refuse(Diagnostic::error(span, message, "fewer levels"));
+                    let (what, expected) = ("levels of elements", "fewer levels");
+                    return refuse(too_many(name, MOST_LEVELS, what, expected));
                 }
-                open.push(Span::new(start, start + name));
+                open.push(name);
             }
             end
         };
@@ -101,6 +97,11 @@ pub(super) fn tag_end(text: &str, from: usize) -> usize {
         }
     }
     text.len()
+}
+
+fn too_many(span: Span, most: usize, what: &str, expected: &str) -> Diagnostic {
+    let message = format!("more than {most} {what} are not supported");
+    Diagnostic::error(span, message, expected)
 }
 
 fn doctype(span: Span) -> Diagnostic {
