@@ -1,9 +1,9 @@
 //! A new scene that shows a mesh.
 
-use glam::DVec3;
+use glam::{BVec3, DVec3};
 
 use super::view::camera_of;
-use super::write::{begin, camera, element, rgb, value, word, xyz};
+use super::write::{camera, element, light, value, word, xyz};
 use geometry::Aabb;
 use scene::{Focus, Rgb};
 
@@ -94,8 +94,7 @@ pub fn around_mesh(mesh: &ShownMesh<'_>) -> String {
         ("lamp", Rgb::new(0.8, 0.74, 0.64), lamp),
         ("window", Rgb::new(0.26, 0.31, 0.4), window),
     ] {
-        begin(&mut text, "light", "point", Some(name));
-        element(&mut text, 6, "intensity", |text| rgb(text, colour));
+        light(&mut text, "point", Some(name), colour);
         element(&mut text, 6, "position", |text| xyz(text, place));
         text.push_str("    </light>\n");
     }
@@ -170,13 +169,8 @@ fn distance(up: Up, bounds: &Aabb, target: DVec3) -> f64 {
     let [width, height] = SIZE.map(f64::from);
     let slope = FILLED * libm::tan(0.5 * ANGLE.to_radians());
     let corners = (0..8).map(|corner| {
-        let is_max = |axis: u32| corner >> axis & 1 == 1;
-        let pick = |axis: u32, min: f64, max: f64| if is_max(axis) { max } else { min };
-        DVec3::new(
-            pick(0, bounds.min.x, bounds.max.x),
-            pick(1, bounds.min.y, bounds.max.y),
-            pick(2, bounds.min.z, bounds.max.z),
-        ) - target
+        let is_max = BVec3::new(corner & 1 != 0, corner & 2 != 0, corner & 4 != 0);
+        DVec3::select(is_max, bounds.max, bounds.min) - target
     });
     let needed = corners.map(|corner| {
         let aside = (corner.dot(right).abs() * height / width).max(corner.dot(above).abs());

@@ -2,10 +2,11 @@
 
 use std::collections::{BTreeSet, HashSet};
 
-use super::tree::{self, Tree, respelled};
+use super::tree::{Tree, respelled};
 use crate::StructureError;
 use crate::schema::Category;
 use crate::structure::inner_lines;
+use crate::written::Parse;
 use text::{Edit, Span, apply, visible};
 
 /// What can be inserted into a scene.
@@ -31,7 +32,7 @@ impl Copies {
     pub(super) fn of(copied: &str) -> Result<Self, StructureError> {
         let foreign = |reason: String| Err(StructureError::Foreign { reason });
         let text = format!("{OPEN}{copied}{CLOSE}");
-        let tree = tree::parse(&text);
+        let tree = Tree::parse(&text);
         if let Some(fault) = &tree.fault {
             return foreign(fault.message.clone());
         }
@@ -91,7 +92,7 @@ impl Copies {
         }
         Edit::sort(&mut edits);
         apply(&mut self.text, &edits);
-        self.tree = tree::parse(&self.text);
+        self.tree = Tree::parse(&self.text);
     }
 
     /// The elements, the first at this indentation and the others as before relative to it.
@@ -116,7 +117,7 @@ pub(super) fn set_apart(text: &str, tree: &Tree, [base, theirs]: [&str; 2]) -> V
         named.map(|(_, _, name)| name.to_owned()).collect()
     };
     let mine = names(text, tree);
-    let [base, theirs] = [base, theirs].map(|other| names(other, &tree::parse(other)));
+    let [base, theirs] = [base, theirs].map(|other| names(other, &Tree::parse(other)));
     let all = mine.iter().chain(&base).chain(&theirs);
     let mut taken: HashSet<String> = all.cloned().collect();
     let mut edits = Vec::new();

@@ -6,6 +6,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 use super::Source;
 use super::origins::fields::numbers;
 use super::origins::{Role, insert};
+use super::parameter::Parameter;
 use crate::field_spans::FieldSpans;
 use crate::form::{Along, Motion, PRECISE, rotation, rounded};
 use crate::structure::{Pose, number};
@@ -17,6 +18,7 @@ use text::{Edit, Span, spell_like};
 /// A transform of an object.
 struct Transform {
     element: usize,
+    parameter: &'static Parameter,
     placed: FieldSpans,
     /// Its numbers, as written or by default: a vector, and its factor or an angle.
     numbers: Vec<f64>,
@@ -24,7 +26,7 @@ struct Transform {
 
 impl Transform {
     fn is(&self, name: &str) -> bool {
-        self.placed.field.key == name
+        self.parameter.element == name
     }
 
     /// What its vector is multiplied by.
@@ -38,15 +40,8 @@ impl Transform {
     }
 
     fn matrix(&self) -> DAffine3 {
-        let vector = self.vector();
-        if self.is("scale") {
-            DAffine3::from_scale(vector)
-        } else if self.is("translate") {
-            DAffine3::from_translation(vector)
-        } else {
-            let turn = normalise(vector).map(|axis| rotation(axis, self.numbers[3]));
-            turn.map_or(DAffine3::IDENTITY, DAffine3::from_mat3)
-        }
+        let angle = self.numbers.get(3).copied().unwrap_or_default();
+        self.parameter.matrix(self.vector(), angle)
     }
 }
 
@@ -63,10 +58,16 @@ impl Source {
                     axes: axes.map(|axis| normalise(axis).unwrap_or(DVec3::X)),
                 })
             }
-            Node::Light(_) => Some(Pose {
-                centre: self.field_vector(node, "position")?,
-                axes: DVec3::AXES,
-            }),
+            Node::Light(_) => {
+                let fields = self.fields(node);
+                let place = fields
+                    .iter()
+                    .find(|placed| placed.field.key == "position")?;
+                Some(Pose {
+                    centre: self.vector(place).0,
+                    axes: DVec3::AXES,
+                })
+            }
             _ => None,
         }
     }
@@ -93,9 +94,7 @@ impl Source {
                 "direction" => (Motion::direction, PRECISE),
                 _ => return None,
             };
-            let numbers = self.numbers(&placed);
-            let factor = numbers.get(3).copied().unwrap_or(1.0);
-            let old = factor * DVec3::from_slice(&numbers);
+            let (old, factor) = self.vector(&placed);
             let new = moved(motion, old);
             let [old, new] = [old, new].map(|vector| vector / factor);
             let new = [0, 1, 2].map(|at| rounded(old[at], new[at], decimals));
@@ -105,13 +104,11 @@ impl Source {
         edits.flatten().collect()
     }
 
-    /// The vector of a field, times its factor; `None` if the node has no such field.
-    fn field_vector(&self, node: Node, key: &str) -> Option<DVec3> {
-        let fields = self.fields(node);
-        let placed = fields.iter().find(|placed| placed.field.key == key)?;
+    /// The vector of a field, times its factor, and the factor.
+    fn vector(&self, placed: &FieldSpans) -> (DVec3, f64) {
         let numbers = self.numbers(placed);
         let factor = numbers.get(3).copied().unwrap_or(1.0);
-        Some(factor * DVec3::from_slice(&numbers))
+        (factor * DVec3::from_slice(&numbers), factor)
     }
 
     /// The numbers of a field, as written or by default.
@@ -329,6 +326,7 @@ impl Source {
                 let placed = numbers(&self.origins, &self.tree, child, parameter);
                 Some(Transform {
                     element: child,
+                    parameter,
                     numbers: self.numbers(&placed),
                     placed,
                 })

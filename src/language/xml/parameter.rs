@@ -1,6 +1,10 @@
 //! What a table of elements says: names, attributes, and the defaults of missing ones.
 
+use glam::{DAffine3, DVec3};
+
+use crate::form::rotation;
 use crate::schema::{Category, Field, Kind, Range};
+use geometry::normalise;
 use scene::Transfer;
 
 /// A category of nodes that are elements of the same name.
@@ -212,6 +216,18 @@ impl Parameter {
     /// With another default of numbers missing in the element.
     pub(super) const fn bare(self, inside: &'static str) -> Self {
         Self { inside, ..self }
+    }
+
+    /// The map of a transform with this vector, or this angle about it.
+    pub(super) fn matrix(&self, vector: DVec3, angle: f64) -> DAffine3 {
+        match self.element {
+            "scale" => DAffine3::from_scale(vector),
+            "translate" => DAffine3::from_translation(vector),
+            _ => {
+                let turn = normalise(vector).map(|axis| rotation(axis, angle));
+                turn.map_or(DAffine3::IDENTITY, DAffine3::from_mat3)
+            }
+        }
     }
 
     /// The default of an attribute missing in the element.

@@ -3,14 +3,13 @@
 use glam::{DAffine3, DVec3};
 
 use super::Lowering;
-use crate::form::rotation;
 use crate::node::Node;
 use crate::report::quoted;
 use crate::schema::{Range, SIZES};
 use crate::xml::origins::Role;
 use crate::xml::parameter::Type;
 use crate::xml::schema::{GROUP, OBJ, PLANE, SPHERE};
-use geometry::{Affine, Ellipsoid, Plane, Shape, Solid, Sphere, normalise};
+use geometry::{Affine, Ellipsoid, Plane, Shape, Solid, Sphere};
 use scene::{Material, Object, Rgb};
 use text::Diagnostic;
 
@@ -63,20 +62,16 @@ impl Lowering<'_> {
             let Role::Transform(parameter) = self.origins.roles[child] else {
                 continue;
             };
-            let one = match parameter.element {
-                "scale" => {
-                    let scale = self.vector_in(Some(child), parameter);
-                    if scale.to_array().contains(&0.0) {
-                        self.flat(child);
-                    }
-                    DAffine3::from_scale(scale)
-                }
-                "rotate" => {
-                    let (axis, angle) = self.rotation_in(child, parameter);
-                    self.rotation(child, axis, angle)
-                }
-                _ => DAffine3::from_translation(self.vector_in(Some(child), parameter)),
-            };
+            let vector = self.vector_in(Some(child), parameter);
+            let angle = self.angle_in(child, parameter);
+            if parameter.element == "scale" && vector.to_array().contains(&0.0) {
+                self.flat(child);
+            } else if parameter.element == "rotate" && vector == DVec3::ZERO {
+                let (name, span) = (self.display_name(child), self.attributes_span(child));
+                let message = || format!("{name}: the axis is zero");
+                self.warn(span, message, "an axis: x, y, z", "the rotation is ignored");
+            }
+            let one = parameter.matrix(vector, angle);
             all = Some(all.map_or(one, |before| one * before));
         }
         all
@@ -89,19 +84,6 @@ impl Lowering<'_> {
             Diagnostic::error(span, message, "numbers other than 0")
                 .with_hint("to flatten it, scale by a small number, or use a plane")
         });
-    }
-
-    /// A right-handed rotation about an axis, in degrees.
-    fn rotation(&mut self, element: usize, axis: DVec3, angle: f64) -> DAffine3 {
-        let Some(axis) = normalise(axis) else {
-            if axis == DVec3::ZERO {
-                let (name, span) = (self.display_name(element), self.attributes_span(element));
-                let message = || format!("{name}: the axis is zero");
-                self.warn(span, message, "an axis: x, y, z", "the rotation is ignored");
-            }
-            return DAffine3::IDENTITY;
-        };
-        DAffine3::from_mat3(rotation(axis, angle))
     }
 
     /// The index of the default material.

@@ -55,15 +55,16 @@ impl<'a> Lowering<'a> {
         let is_fraction = field.kind == Kind::Side && !is_integer(word);
         if value.is_nan() {
             // Already reported.
-        } else if !field.allowed.contains(value) || is_too_large || is_fraction {
+        } else if is_too_large || is_fraction {
             let limits = if is_too_large {
                 format!("{} at most", u32::MAX)
             } else {
-                field.allowed.limits_against(value)
+                field.allowed.limits()
             };
             let message = format!("{}: must be {limits}", what());
-            let expected = field.allowed.words_against(value);
-            findings.error(|| Diagnostic::error(span, message, expected));
+            findings.error(|| Diagnostic::error(span, message, field.allowed.words()));
+        } else if !field.allowed.contains(value) {
+            findings.error(|| out_of_range(field, span, value, &what()));
         } else if !field.usual.contains(value) {
             findings.warning(|| out_of_range(field, span, value, &what()));
         }
@@ -126,19 +127,16 @@ impl<'a> Lowering<'a> {
         product
     }
 
-    /// The axis and the angle, in degrees, of a rotation.
-    pub(super) fn rotation_in(
-        &mut self,
-        element: usize,
-        parameter: &'static Parameter,
-    ) -> (DVec3, f64) {
-        let axis = self.vector_in(Some(element), parameter);
+    /// The angle of a rotation, in degrees; 0 for another transform.
+    pub(super) fn angle_in(&mut self, element: usize, parameter: &'static Parameter) -> f64 {
+        if parameter.reading != Attributes::Rotation {
+            return 0.0;
+        }
         let angle = match self.value(element, "angle") {
             Some(_) => "angle",
             None => "value",
         };
-        let angle = self.number_or(element, angle, &parameter.field, "0");
-        (axis, angle)
+        self.number_or(element, angle, &parameter.field, "0")
     }
 
     /// A further number of a parameter, or its default.

@@ -165,24 +165,20 @@ impl Tree {
 }
 
 impl Parse for Tree {
+    /// Parses elements and comments. Refuses document type declarations, and entities with them.
     fn parse(text: &str) -> Self {
-        parse(text)
+        let mut tree = Self::default();
+        let scan = scan::scan(text);
+        if let Some(refused) = scan.refused {
+            tree.fault = Some(refused);
+            return tree;
+        }
+        match document(text) {
+            Ok(document) => tree.fill(text, &document),
+            Err(error) => tree.fault = Some(fault::diagnostic(text, &error, scan.unclosed)),
+        }
+        tree
     }
-}
-
-/// Parses elements and comments. Refuses document type declarations, and entities with them.
-pub(super) fn parse(text: &str) -> Tree {
-    let mut tree = Tree::default();
-    let scan = scan::scan(text);
-    if let Some(refused) = scan.refused {
-        tree.fault = Some(refused);
-        return tree;
-    }
-    match document(text) {
-        Ok(document) => tree.fill(text, &document),
-        Err(error) => tree.fault = Some(fault::diagnostic(text, &error, scan.unclosed)),
-    }
-    tree
 }
 
 /// Returns an error if no text with this beginning can be XML.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{begin, element, rgb, value, xyz};
+use super::{element, value, xyz};
 use crate::losses::{Losses, Of};
 use crate::surroundings::{FADING, SHADOWLESS, SPOT, faded};
 use geometry::direction_of;
@@ -11,26 +11,18 @@ use scene::{Emitter, Falloff, Light, Rgb, Scene, Shadows};
 /// Writes the lights of a scene, without ambient ones if the materials emit their light.
 pub(super) fn write(text: &mut String, scene: &Scene, is_baked: bool, losses: &mut Losses<'_>) {
     if !is_baked && scene.ambient != Rgb::ZERO {
-        begin(
-            text,
-            "light",
-            "ambient",
-            losses.label(Of::Ambient).as_deref(),
-        );
-        element(text, 6, "intensity", |text| rgb(text, scene.ambient));
+        let label = losses.label(Of::Ambient);
+        super::light(text, "ambient", label.as_deref(), scene.ambient);
         text.push_str("    </light>\n");
     }
     for (index, light) in scene.lights.iter().enumerate() {
         let label = losses.label(Of::Light(index));
+        let label = label.as_deref();
         match &light.emitter {
             Emitter::Ambient if is_baked => continue,
-            Emitter::Ambient => {
-                begin(text, "light", "ambient", label.as_deref());
-                element(text, 6, "intensity", |text| rgb(text, light.colour));
-            }
+            Emitter::Ambient => super::light(text, "ambient", label, light.colour),
             Emitter::Distant(toward) => {
-                begin(text, "light", "direct", label.as_deref());
-                element(text, 6, "intensity", |text| rgb(text, light.colour));
+                super::light(text, "direct", label, light.colour);
                 element(text, 6, "direction", |text| {
                     xyz(text, direction_of(-*toward));
                 });
@@ -40,10 +32,9 @@ pub(super) fn write(text: &mut String, scene: &Scene, is_baked: bool, losses: &m
                 radius,
                 falloff,
             } => {
-                begin(text, "light", "point", label.as_deref());
                 let (colour, attenuation) =
                     faded_as(index, light, (*position, falloff), scene, losses);
-                element(text, 6, "intensity", |text| rgb(text, colour));
+                super::light(text, "point", label, colour);
                 element(text, 6, "position", |text| xyz(text, *position));
                 for (word, number) in [("size", *radius), ("attenuation", attenuation)] {
                     if number != 0.0 {

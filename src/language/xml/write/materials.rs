@@ -124,13 +124,12 @@ fn report(of: Of, material: &Material, scene: &Scene, losses: &mut Losses<'_>) {
     if maps.bump.is_some() {
         lose(&BUMP);
     }
-    let texture = maps
-        .diffuse
-        .and_then(|texture| scene.textures.get(texture as usize));
-    if let Some(Pattern::Checker {
-        side: Side::One, ..
-    }) = texture.map(|texture| &texture.pattern)
-    {
+    let texture = maps.diffuse.and_then(|at| scene.textures.get(at as usize));
+    let has_lines = |pattern: &Pattern| match pattern {
+        Pattern::Checker { side, .. } => *side == Side::One,
+        Pattern::Image(_) | Pattern::Clamped(_) => false,
+    };
+    if texture.is_some_and(|texture| has_lines(&texture.pattern)) {
         lose(&LINES);
     }
 }

@@ -87,13 +87,19 @@ pub(super) fn element(
 }
 
 /// Begins an element of a kind, with a name if it has one.
-pub(super) fn begin(text: &mut String, element: &str, kind: &str, name: Option<&str>) {
+fn begin(text: &mut String, element: &str, kind: &str, name: Option<&str>) {
     open(text, 4, element);
     word(text, "type", kind);
     if let Some(name) = name {
         word(text, "name", name);
     }
     text.push_str(">\n");
+}
+
+/// Begins a light.
+pub(super) fn light(text: &mut String, kind: &str, name: Option<&str>, colour: Rgb) {
+    begin(text, "light", kind, name);
+    element(text, 6, "intensity", |text| rgb(text, colour));
 }
 
 /// Begins the tag of an element.
@@ -134,7 +140,7 @@ pub(super) fn xyz(text: &mut String, vector: DVec3) {
 }
 
 /// Writes a colour, a grey as one number.
-pub(super) fn rgb(text: &mut String, colour: Rgb) {
+fn rgb(text: &mut String, colour: Rgb) {
     if colour == Rgb::splat(colour.x) {
         value(text, colour.x);
     } else {
