@@ -323,7 +323,7 @@ impl Source {
         let children = self.tree.children(element);
         let transforms = children.filter_map(|child| match self.origins.roles.get(child)? {
             Role::Transform(parameter) => {
-                let placed = numbers(&self.origins, &self.tree, child, parameter);
+                let placed = numbers(&self.text, &self.tree, child, parameter);
                 Some(Transform {
                     element: child,
                     parameter,

@@ -41,7 +41,7 @@ impl SceneText for Source {
     }
 
     fn fields(&self, node: Node) -> Vec<FieldSpans> {
-        fields::of(&self.origins, &self.tree, node)
+        fields::of(&self.text, &self.tree, &self.origins, node)
     }
 
     fn nodes(&self) -> Nodes {
@@ -253,7 +253,7 @@ impl Source {
 
     /// The attribute of an element with this name.
     pub(super) fn value(&self, element: usize, word: &str) -> Option<&Attribute> {
-        self.origins.value(&self.tree, element, word)
+        self.tree.attribute(&self.text, element, word)
     }
 }
 

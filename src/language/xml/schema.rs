@@ -8,11 +8,6 @@ const HALF: &[&str; 3] = &["0.5", "0.5", "0.5"];
 const ONE: &[&str; 3] = &["1", "1", "1"];
 const SHINY: &[&str; 3] = &["0.7", "0.7", "0.7"];
 
-/// The known attributes but for those of the render settings.
-pub(super) const WORDS: [&str; 15] = [
-    "x", "y", "z", "value", "angle", "r", "g", "b", "index", "glossiness", "texture", "type", "name", "material", "gamma",
-];
-
 /// The elements in `scene` that are nodes of categories.
 pub(super) const CLASSES: [&Class; 3] = [&OBJECT, &MATERIAL, &LIGHT];
 

@@ -41,19 +41,12 @@ impl StructureEdits for Source {
     }
 
     fn copied(&self, nodes: &[Node]) -> Result<String, StructureError> {
-        let mut copied: Vec<Span> = Vec::new();
-        let mut spans = Vec::new();
-        for &node in nodes {
-            spans.push(self.block(node)?.span());
-        }
+        let spans = nodes.iter().map(|&node| Ok(self.block(node)?.span()));
+        let mut spans = spans.collect::<Result<Vec<_>, _>>()?;
         spans.sort_unstable();
-        for span in spans {
-            // An element in another goes with that.
-            if copied.last().is_none_or(|last| last.end() < span.end()) {
-                copied.push(span);
-            }
-        }
-        let copies: Vec<_> = copied.iter().map(|span| span.of(&self.text)).collect();
+        // An element in another goes with that.
+        spans.dedup_by(|own, last| own.end() <= last.end());
+        let copies: Vec<_> = spans.iter().map(|span| span.of(&self.text)).collect();
         Ok(copies.join(line_ending(&self.text)))
     }
 
@@ -116,11 +109,9 @@ impl StructureEdits for Source {
                 None => format!("{} has no name", self.name(node)),
             });
         };
-        if name.trim().is_empty() {
-            return refused("a name must not be empty".to_owned());
-        }
-        if matches!(node, Node::Material(_)) && name != old {
-            self.unused_material(name)?;
+        match node {
+            Node::Material(_) if name != old => self.unused_material(name)?,
+            _ => not_empty(name)?,
         }
         let element = self.element(node).unwrap_or_default();
         let mut edits = vec![match self.value(element, "name") {
@@ -209,14 +200,12 @@ impl StructureEdits for Source {
 impl Source {
     /// Fails if no material can have a name because it is empty or in use.
     fn unused_material(&self, name: &str) -> Result<(), StructureError> {
-        let refused = |reason: String| Err(StructureError::Name(reason));
-        if name.trim().is_empty() {
-            return refused("a name must not be empty".to_owned());
-        }
+        not_empty(name)?;
         let materials = self.origins.of(Category::Material).iter();
         let mut named = materials.filter_map(|place| place.name.as_deref());
         if named.any(|known| known == name) {
-            return refused(format!("a material named {name} already exists"));
+            let reason = format!("a material named {name} already exists");
+            return Err(StructureError::Name(reason));
         }
         Ok(())
     }
@@ -365,4 +354,12 @@ impl Source {
 /// Whether two nodes are of the same kind.
 fn is_alike(one: Node, other: Node) -> bool {
     std::mem::discriminant(&one) == std::mem::discriminant(&other)
+}
+
+/// Fails for a name without visible characters.
+fn not_empty(name: &str) -> Result<(), StructureError> {
+    if name.trim().is_empty() {
+        return Err(StructureError::Name("a name must not be empty".to_owned()));
+    }
+    Ok(())
 }

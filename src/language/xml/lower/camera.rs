@@ -9,7 +9,7 @@ use crate::xml::parameter::Parameter;
 use crate::xml::schema::{BACKGROUND, CAMERA, ENVIRONMENT};
 use crate::xml::view;
 use scene::{Camera, Transfer};
-use text::{Span, parse_number, without_suffix};
+use text::{Diagnostic, Span, parse_number, without_suffix};
 
 impl Lowering<'_> {
     /// The camera of its element, with defaults for missing parts; `root` is the place of messages
@@ -95,8 +95,10 @@ impl Lowering<'_> {
     /// Reads background and environment; `root` is the place of messages about a missing scene.
     pub(super) fn surroundings(&mut self, root: Span) {
         let Some(scene) = self.origins.scene else {
-            let message = || "no `scene` element".to_owned();
-            return self.warn(root, message, "`<scene>` in `<xml>`", "");
+            let expected = "`<scene>` in `<xml>`";
+            return self
+                .report
+                .warning(|| Diagnostic::warning(root, "no `scene` element", expected));
         };
         self.setting.background = self.tinted(scene, &BACKGROUND);
         self.setting.environment = self.tinted(scene, &ENVIRONMENT);

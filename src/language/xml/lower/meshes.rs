@@ -8,7 +8,7 @@ use super::Lowering;
 use super::surfaces::lit;
 use crate::node::Node;
 use crate::schema::SIZES;
-use crate::xml::origins::{NamedPlace, What};
+use crate::xml::origins::What;
 use geometry::{Instance, Shape};
 use obj::{Edges, Finding, Map, Model};
 use scene::{
@@ -66,14 +66,10 @@ impl<'a> Lowering<'a> {
     }
 
     fn named_mesh(&mut self, object: usize, element: usize) -> Option<Named<'a>> {
-        let attribute = self.origins.attribute(self.tree, element, "name");
+        let attribute = self.tree.attribute_at(self.text, element, "name");
         let name = attribute.map_or("", |at| self.tree.attributes[at].unescaped(self.text));
         if let Some(attribute) = attribute.filter(|_| !name.is_empty()) {
-            self.origins.files.push(NamedPlace {
-                element,
-                attribute,
-                what: What::Mesh,
-            });
+            self.origins.note_file(element, attribute, What::Mesh);
             return Some(Named {
                 object,
                 element,
@@ -198,11 +194,8 @@ impl<'a> Lowering<'a> {
 
     /// The texture of a picture named by a material of a mesh.
     fn map(&mut self, named: Named<'a>, keyword: &'static str, path: String, map: &Map) -> u32 {
-        self.origins.files.push(NamedPlace {
-            element: named.element,
-            attribute: named.attribute,
-            what: What::Map(keyword, path.clone().into()),
-        });
+        let what = What::Map(keyword, path.clone().into());
+        self.origins.note_file(named.element, named.attribute, what);
         let [scale, offset] =
             [(map.scale, 1.0), (map.offset, 0.0)].map(|([u, v], w)| DVec3::new(u, v, w));
         self.textures.push(Texture {

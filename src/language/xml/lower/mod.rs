@@ -99,14 +99,8 @@ impl Lowering<'_> {
     }
 
     fn warn(&mut self, span: Span, message: impl FnOnce() -> String, expected: &str, hint: &str) {
-        self.report.warning(|| {
-            let warning = Diagnostic::warning(span, message(), expected);
-            if hint.is_empty() {
-                warning
-            } else {
-                warning.with_hint(hint)
-            }
-        });
+        self.report
+            .warning(|| Diagnostic::warning(span, message(), expected).with_hint(hint));
     }
 
     fn error(&mut self, span: Span, message: impl FnOnce() -> String, expected: &str) {

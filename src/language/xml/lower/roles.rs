@@ -1,4 +1,4 @@
-//! The roles of elements and attributes, by their names and parents.
+//! The roles of elements, by their names and parents, and what is unknown.
 
 use std::collections::HashMap;
 
@@ -6,12 +6,11 @@ use super::Lowering;
 use crate::node::Node;
 use crate::report::quoted;
 use crate::schema::Category;
-use crate::xml::origins::{NO_WORD, Place, Role};
+use crate::xml::origins::{Place, Role};
 use crate::xml::parameter::{Attributes, Class, Parameter, Type};
 use crate::xml::schema::{
-    BACKGROUND, CAMERA, CHECKER, CLASSES, ENVIRONMENT, GAMMA, TRANSFORMS, WORDS, class_of,
+    BACKGROUND, CAMERA, CHECKER, CLASSES, ENVIRONMENT, GAMMA, TRANSFORMS, class_of,
 };
-use crate::xml::tree::Attribute;
 use text::{Diagnostic, Span, nearest_word, visible};
 
 /// The elements known in `xml` and in `scene`.
@@ -22,16 +21,10 @@ const IN_SCENE: [&str; 5] = ["object", "material", "light", "background", "envir
 const SKIPPED: &str = "it is skipped";
 
 impl<'a> Lowering<'a> {
-    /// Gives every element its role and every attribute its word. Unknown elements are skipped with
-    /// a warning, and their content without.
+    /// Gives every element its role. Unknown elements are skipped with a warning, and their content
+    /// without.
     pub(super) fn find_roles(&mut self) {
         let tree = self.tree;
-        let word = |attribute: &Attribute| {
-            let name = attribute.name.of(self.text);
-            let known = WORDS.iter().position(|word| *word == name);
-            known.map_or(NO_WORD, |at| at as u8)
-        };
-        self.origins.words = tree.attributes.iter().map(word).collect();
         let mut parameters: HashMap<(u32, &'static str), usize> = HashMap::new();
         for element in 0..tree.elements.len() {
             let parent = tree.elements[element].parent;
@@ -240,17 +233,11 @@ impl<'a> Lowering<'a> {
         }
         let known = known_attributes(role);
         for at in self.tree.elements[element].attributes() {
-            let word = self.origins.words[at];
-            let is_known = WORDS
-                .get(usize::from(word))
-                .is_some_and(|word| known.contains(word));
-            if is_known {
-                continue;
-            }
-            // From here on it counts as unknown.
-            self.origins.words[at] = NO_WORD;
             let place = self.tree.attributes[at].name;
             let word = place.of(self.text);
+            if known.contains(&word) {
+                continue;
+            }
             let name = quoted(self.name(element));
             let nearest = nearest_word(word, known.iter().copied());
             let hint = meaning(SKIPPED, nearest);

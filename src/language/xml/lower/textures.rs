@@ -3,11 +3,10 @@
 use glam::{DAffine3, DVec3};
 
 use super::Lowering;
-use crate::xml::origins::{NamedPlace, What};
+use crate::xml::origins::What;
 use crate::xml::parameter::Parameter;
 use crate::xml::schema::CHECKER;
 use scene::{Pattern, Side, Texture, Tinted};
-use text::Diagnostic;
 
 /// The name of the checkerboard texture.
 const CHECKERBOARD: &str = "checkerboard";
@@ -66,7 +65,7 @@ impl Lowering<'_> {
         parameter: &'static Parameter,
         pending: &mut Vec<Square>,
     ) -> Option<u32> {
-        let attribute = self.origins.attribute(self.tree, element, "texture");
+        let attribute = self.tree.attribute_at(self.text, element, "texture");
         let attribute = attribute.filter(|_| parameter.may_have_texture)?;
         let value = &self.tree.attributes[attribute];
         let (word, span) = (value.unescaped(self.text), value.value);
@@ -94,20 +93,14 @@ impl Lowering<'_> {
                 side: Side::Half,
             }
         } else {
-            self.origins.files.push(NamedPlace {
-                element,
-                attribute,
-                what: What::Texture,
-            });
+            self.origins.note_file(element, attribute, What::Texture);
             Pattern::Image(word.to_owned())
         };
         let transform = self.transform_of(element);
         let inverse = transform.map_or(Some(DAffine3::IDENTITY), inverse);
         let inverse = inverse.unwrap_or_else(|| {
-            self.report.error(|| {
-                let message = "texture: its transforms are not invertible";
-                Diagnostic::error(span, message, "invertible transforms")
-            });
+            let message = || "texture: its transforms are not invertible".to_owned();
+            self.error(span, message, "invertible transforms");
             DAffine3::IDENTITY
         });
         self.textures.push(Texture { inverse, pattern });

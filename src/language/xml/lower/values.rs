@@ -32,7 +32,7 @@ impl<'a> Lowering<'a> {
 
     /// The attribute of an element with this name.
     pub(super) fn value(&self, element: usize, word: &str) -> Option<&'a Attribute> {
-        self.origins.value(self.tree, element, word)
+        self.tree.attribute(self.text, element, word)
     }
 
     /// The name of an attribute's number in messages.

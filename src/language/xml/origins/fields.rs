@@ -16,8 +16,14 @@ use text::Span;
 const MOST_ROWS: usize = 256;
 
 /// The fields of a node.
-pub(in crate::xml) fn of(origins: &Origins, tree: &Tree, node: Node) -> Vec<FieldSpans> {
+pub(in crate::xml) fn of(
+    text: &str,
+    tree: &Tree,
+    origins: &Origins,
+    node: Node,
+) -> Vec<FieldSpans> {
     let mut rows = Rows {
+        text,
         origins,
         tree,
         placed: Vec::new(),
@@ -49,17 +55,8 @@ pub(in crate::xml) fn of(origins: &Origins, tree: &Tree, node: Node) -> Vec<Fiel
             let defaults = of_gamma(origins.transfer);
             rows.placed = rendering::fields(place, &defaults, &insertion, element);
         }
-        Node::Background | Node::Environment => {
-            let is_background = node == Node::Background;
-            let parameter = if is_background {
-                &BACKGROUND
-            } else {
-                &ENVIRONMENT
-            };
-            if let Some(scene) = origins.scene {
-                rows.parameter(scene, parameter);
-            }
-        }
+        Node::Background => rows.of_scene(&BACKGROUND),
+        Node::Environment => rows.of_scene(&ENVIRONMENT),
         _ => rows.thing(node),
     }
     rows.placed
@@ -78,6 +75,7 @@ pub(in crate::xml) fn of_gamma(gamma: Transfer) -> Rendering {
 }
 
 struct Rows<'a> {
+    text: &'a str,
     origins: &'a Origins,
     tree: &'a Tree,
     placed: Vec<FieldSpans>,
@@ -99,22 +97,19 @@ impl Rows<'_> {
         self.transforms(element);
     }
 
+    fn of_scene(&mut self, parameter: &'static Parameter) {
+        if let Some(scene) = self.origins.scene {
+            self.parameter(scene, parameter);
+        }
+    }
+
     /// Adds an attribute that is a field of its own.
     fn single(&mut self, element: usize, single: &'static Single) {
-        let part = Part {
-            name: single.attribute,
-            place: self.place(element, single.attribute),
-            default: single.missing(self.origins.transfer),
-            is_required: false,
-        };
+        let default = single.missing(self.origins.transfer);
+        let part = Part::of((self.text, self.tree), element, single.attribute, default);
         let insertion = insert::attribute(self.tree, element);
         self.placed
             .push(field(&single.field, &[part], None, insertion));
-    }
-
-    fn place(&self, element: usize, attribute: &str) -> Option<Span> {
-        let attribute = self.origins.value(self.tree, element, attribute)?;
-        Some(attribute.value)
     }
 
     fn parameter(&mut self, holder: usize, parameter: &'static Parameter) {
@@ -132,16 +127,16 @@ impl Rows<'_> {
                 return;
             }
             self.placed
-                .push(numbers(self.origins, self.tree, element, parameter));
+                .push(numbers(self.text, self.tree, element, parameter));
             for extra in parameter.extras {
                 self.single(element, extra);
             }
-            let texture = self.place(element, "texture");
+            let texture = self.tree.attribute(self.text, element, "texture");
             let Some(texture) = texture.filter(|_| parameter.may_have_texture) else {
                 continue;
             };
             self.placed
-                .push(FieldSpans::explicit(&TEXTURE, vec![texture]));
+                .push(FieldSpans::explicit(&TEXTURE, vec![texture.value]));
             self.transforms(element);
             let colours = CHECKER.iter().copied().rev();
             pending.extend(colours.filter_map(|colour| {
@@ -158,7 +153,7 @@ impl Rows<'_> {
             }
             if let Some(Role::Transform(parameter)) = self.origins.roles.get(child) {
                 self.placed
-                    .push(numbers(self.origins, self.tree, child, parameter));
+                    .push(numbers(self.text, self.tree, child, parameter));
             }
         }
     }
@@ -189,21 +184,32 @@ struct Part {
     is_required: bool,
 }
 
+impl Part {
+    /// The attribute of an element with this name.
+    fn of(
+        (text, tree): (&str, &Tree),
+        element: usize,
+        name: &'static str,
+        default: &'static str,
+    ) -> Self {
+        let attribute = tree.attribute(text, element, name);
+        Self {
+            name,
+            place: attribute.map(|attribute| attribute.value),
+            default,
+            is_required: false,
+        }
+    }
+}
+
 /// The numbers of an existing element.
 pub(in crate::xml) fn numbers(
-    origins: &Origins,
+    text: &str,
     tree: &Tree,
     element: usize,
     parameter: &'static Parameter,
 ) -> FieldSpans {
-    let part = |name: &'static str| Part {
-        name,
-        place: origins
-            .value(tree, element, name)
-            .map(|attribute| attribute.value),
-        default: parameter.inside(name),
-        is_required: false,
-    };
+    let part = |name| Part::of((text, tree), element, name, parameter.inside(name));
     let names = parameter.reading.attributes().iter();
     let mut parts: Vec<_> = names.map(|&name| part(name)).collect();
     let mut own = &parameter.field;

@@ -5,8 +5,8 @@ pub(super) mod fields;
 pub(super) mod insert;
 
 use super::parameter::{Parameter, Type};
-use super::schema::{BACKGROUND, ENVIRONMENT, WORDS};
-use super::tree::{Attribute, Tree};
+use super::schema::{BACKGROUND, ENVIRONMENT};
+use super::tree::Tree;
 use crate::node::Node;
 use crate::rendering::RenderPlace;
 use crate::schema::Category;
@@ -20,8 +20,6 @@ pub(crate) struct Origins {
     pub(super) roles: Vec<Role>,
     /// For each element, the element of the node it belongs to; 0 for none.
     pub(super) owners: Vec<u32>,
-    /// For each attribute, its index in [`WORDS`] or [`NO_WORD`].
-    pub(super) words: Vec<u8>,
     pub(super) root: Option<usize>,
     pub(super) scene: Option<usize>,
     pub(super) camera: Option<usize>,
@@ -89,9 +87,6 @@ pub(super) enum Role {
     Transform(&'static Parameter),
 }
 
-/// Marks an unknown attribute.
-pub(super) const NO_WORD: u8 = u8::MAX;
-
 impl Origins {
     /// The places of the nodes of a category.
     pub(super) fn of(&self, category: Category) -> &[Place] {
@@ -115,6 +110,15 @@ impl Origins {
         self.places[Category::Object as usize][object].material = material;
     }
 
+    /// Notes an attribute that names a file.
+    pub(super) fn note_file(&mut self, element: usize, attribute: usize, what: What) {
+        self.files.push(NamedPlace {
+            element,
+            attribute,
+            what,
+        });
+    }
+
     /// The place of a node of a category.
     pub(super) fn get(&self, node: Node) -> Option<&Place> {
         let (category, index) = node.category()?;
@@ -130,23 +134,6 @@ impl Origins {
             },
             None => node.to_string(),
         }
-    }
-
-    /// The attribute of an element with this name, one of [`WORDS`].
-    pub(super) fn attribute(&self, tree: &Tree, element: usize, word: &str) -> Option<usize> {
-        let word = WORDS.iter().position(|known| *known == word)? as u8;
-        let mut own = tree.elements.get(element)?.attributes();
-        own.find(|&at| self.words.get(at) == Some(&word))
-    }
-
-    /// The value of an attribute.
-    pub(super) fn value<'t>(
-        &self,
-        tree: &'t Tree,
-        element: usize,
-        word: &str,
-    ) -> Option<&'t Attribute> {
-        tree.attributes.get(self.attribute(tree, element, word)?)
     }
 
     /// The child of an element that sets a parameter.

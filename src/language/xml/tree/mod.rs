@@ -104,13 +104,15 @@ impl Tree {
         })
     }
 
+    /// The index of the first attribute of an element with this name.
+    pub(super) fn attribute_at(&self, text: &str, element: usize, name: &str) -> Option<usize> {
+        let mut own = self.elements.get(element)?.attributes();
+        own.find(|&at| self.attributes[at].name.of(text) == name)
+    }
+
     /// The first attribute of an element with this name.
     pub(crate) fn attribute(&self, text: &str, element: usize, name: &str) -> Option<&Attribute> {
-        let own = self
-            .attributes
-            .get(self.elements.get(element)?.attributes());
-        let mut own = own.unwrap_or_default().iter();
-        own.find(|attribute| attribute.name.of(text) == name)
+        self.attributes.get(self.attribute_at(text, element, name)?)
     }
 
     /// The attribute value whose text is at a span, with references resolved.

@@ -42,7 +42,7 @@ pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
     if !settings.is_empty() {
         element(&mut text, 2, "render", |text| {
             for (key, value) in &settings {
-                word(text, key, value);
+                word(text, key, value.as_str());
             }
         });
     }
@@ -90,9 +90,7 @@ pub(super) fn element(
 fn begin(text: &mut String, element: &str, kind: &str, name: Option<&str>) {
     open(text, 4, element);
     word(text, "type", kind);
-    if let Some(name) = name {
-        word(text, "name", name);
-    }
+    word(text, "name", name);
     text.push_str(">\n");
 }
 
@@ -121,8 +119,11 @@ fn attribute(text: &mut String, name: &str, number: f64) {
     text.push('"');
 }
 
-/// Writes an attribute. What XML cannot hold becomes a blank.
-pub(super) fn word(text: &mut String, name: &str, word: &str) {
+/// Writes an attribute, if it has a value. What XML cannot hold becomes a blank.
+pub(super) fn word<'w>(text: &mut String, name: &str, word: impl Into<Option<&'w str>>) {
+    let Some(word) = word.into() else {
+        return;
+    };
     let is_foreign = |c: char| match c {
         '\t' | '\n' | '\r' => false,
         '\u{FFFE}' | '\u{FFFF}' => true,

@@ -72,9 +72,7 @@ fn solid_object(
         Solid::Cuboid(cuboid) => {
             losses.add(Of::Object(index), &BOX);
             open(text, 4, "object");
-            if let Some(label) = label {
-                word(text, "name", label);
-            }
+            word(text, "name", label);
             text.push_str(">\n");
             let squares = squares(&cuboid.0.numbers());
             for square in squares {
@@ -98,12 +96,8 @@ fn one(
 ) {
     open(text, indent, "object");
     word(text, "type", kind);
-    if let Some(name) = name {
-        word(text, "name", name);
-    }
-    if let Some(material) = material {
-        word(text, "material", material);
-    }
+    word(text, "name", name);
+    word(text, "material", material);
     let before = text.len();
     text.push_str(">\n");
     placed(text, indent + 2, map);

@@ -47,7 +47,7 @@ fn inside(text: &mut String, indent: usize, texture: &Texture, scene: &Scene) {
     let mut inverse = texture.inverse;
     match &texture.pattern {
         Pattern::Image(path) | Pattern::Clamped(path) => {
-            word(text, "texture", path);
+            word(text, "texture", path.as_str());
             text.push_str(">\n");
         }
         Pattern::Checker { squares, side } => {
