@@ -61,13 +61,12 @@ impl Copies {
     }
 
     /// Replaces names that are taken in their category, and references to materials of the copies.
-    pub(super) fn rename<'n>(&mut self, taken: impl Fn(Category) -> HashSet<&'n str>) {
+    pub(super) fn rename(&mut self, taken: impl Fn(Category) -> HashSet<String>) {
         let text = &*self.text;
         let mut edits = Vec::new();
         let mut materials = Vec::new();
         for category in CATEGORIES {
-            let mut taken: HashSet<String> =
-                taken(category).into_iter().map(str::to_owned).collect();
+            let mut taken = taken(category);
             for (element, span, name) in values(text, &self.tree, category, "name") {
                 let kind = self.tree.attribute(text, element, "type");
                 let is_file =

@@ -298,24 +298,19 @@ impl Source {
 
     /// The edit that writes a transform before another one, or after the last.
     fn inserted(&self, element: usize, before: Option<&Transform>, markup: &str) -> Edit {
-        let elements = &self.tree.elements;
+        let tree = &self.tree;
         if let Some(before) = before {
-            let next = &elements[before.element];
+            let next = &tree.elements[before.element];
             return Edit {
                 span: Span::at(next.whole.start()),
                 text: format!("{markup}{}", next.lead.of(&self.text)),
             };
         }
-        match self.transforms(element).last() {
-            Some(last) => {
-                let last = &elements[last.element];
-                Edit {
-                    span: Span::at(last.whole.end()),
-                    text: format!("{}{markup}", last.lead.of(&self.text)),
-                }
-            }
-            None => insert::first(&self.tree, element).edit(&self.text, &[markup.to_owned()]),
-        }
+        let place = match self.transforms(element).last() {
+            Some(last) => insert::after(tree, last.element),
+            None => insert::first(tree, element),
+        };
+        place.edit(&self.text, &[markup.to_owned()])
     }
 
     /// The transforms of an element, in order.

@@ -233,7 +233,7 @@ impl SceneText for Source {
     }
 
     fn view_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit> {
-        view::edits(self, &self.fields(Node::View), before, camera)
+        view::edits(self, before, camera)
     }
 
     fn comment_marks(&self) -> [&'static str; 2] {

@@ -53,8 +53,9 @@ impl StructureEdits for Source {
     fn insertion(&self, text: &str, after: Node) -> Result<Placement, StructureError> {
         let mut copies = Copies::of(text)?;
         copies.rename(|category| {
-            let names = self.origins.of(category).iter();
-            names.filter_map(|place| place.name.as_deref()).collect()
+            let places = self.origins.of(category).iter();
+            let names = places.filter_map(|place| place.name.as_deref());
+            names.map(str::to_owned).collect()
         });
         let scene = self.origins.scene.ok_or_else(|| StructureError::Foreign {
             reason: "there is no <scene> to hold it".to_owned(),

@@ -5,10 +5,9 @@ use glam::DVec3;
 use super::Source;
 use super::origins::Origins;
 use super::schema::CAMERA;
-use crate::SceneText;
-use crate::field_spans::FieldSpans;
 use crate::schema::Field;
 use crate::view::{Numbers, spelled, take};
+use crate::{Node, SceneText};
 use scene::{Camera, Focus, Lens, Size};
 use text::Edit;
 
@@ -95,13 +94,9 @@ pub(super) fn camera(numbers: &Numbers, origins: &Origins) -> Camera {
     )
 }
 
-/// Returns the edits that turn the text's camera `before` into `camera`. `fields` are the view's.
-pub(super) fn edits(
-    source: &Source,
-    fields: &[FieldSpans],
-    before: &Camera,
-    camera: &Camera,
-) -> Vec<Edit> {
+/// Returns the edits that turn the text's camera `before` into `camera`.
+pub(super) fn edits(source: &Source, before: &Camera, camera: &Camera) -> Vec<Edit> {
+    let fields = source.fields(Node::View);
     let origins = &source.origins;
     let [mut old, new] = [before, camera].map(|camera| numbers_of(camera, origins));
     for (at, factor) in origins.factors.into_iter().enumerate() {

@@ -17,13 +17,12 @@ impl Lowering<'_> {
     pub(super) fn camera(&mut self, root: Span) -> Camera {
         let camera = self.origins.camera;
         let whole = camera.map_or(root, |camera| self.place(camera));
-        match camera {
-            Some(camera) => self.gamma(camera),
-            None => {
-                let message = || "no `camera` element".to_owned();
-                let hint = "the default is at the origin and looks along −z";
-                self.warn(root, message, "`<camera>` in `<xml>`", hint);
-            }
+        if let Some(camera) = camera {
+            self.gamma(camera);
+        } else {
+            let message = || "no `camera` element".to_owned();
+            let hint = "the default is at the origin and looks along −z";
+            self.warn(root, message, "`<camera>` in `<xml>`", hint);
         }
         let [vectors @ .., _, _, _, _, _] = *CAMERA;
         let [_, _, _, numbers @ ..] = *CAMERA;

@@ -141,7 +141,9 @@ impl Lowering<'_> {
         // Malformed numbers were already reported.
         let stated = self.element_of(Some(element), &DIRECTION);
         if let Some(element) = stated.filter(|_| direction == DVec3::ZERO) {
-            self.zero(element);
+            let (name, span) = (self.display_name(element), self.attributes_span(element));
+            let message = || format!("{name}: must not be zero");
+            self.error(span, message, "a direction");
         }
         DVec3::Z
     }

@@ -171,14 +171,6 @@ impl<'a> Lowering<'a> {
             own @ [first, ..] => first.name.to(own[own.len() - 1].value),
         }
     }
-
-    /// Reports a direction of zero length.
-    pub(super) fn zero(&mut self, element: usize) {
-        let name = self.display_name(element);
-        let span = self.attributes_span(element);
-        self.report
-            .error(|| Diagnostic::error(span, format!("{name}: must not be zero"), "a direction"));
-    }
 }
 
 /// Parses a number of the table of fields.

@@ -11,15 +11,20 @@ pub(super) fn attribute(tree: &Tree, element: usize) -> Insertion {
 
 /// Where to insert another child: after the last one with its indentation, or as the first one.
 pub(super) fn child(tree: &Tree, parent: usize) -> Insertion {
-    let Some(last) = tree.children(parent).last() else {
-        return first(tree, parent);
-    };
-    let last = &tree.elements[last];
-    let before = vec![Piece::Copy(last.lead)];
+    match tree.children(parent).last() {
+        Some(last) => after(tree, last),
+        None => first(tree, parent),
+    }
+}
+
+/// Where to insert another element after one, with its indentation.
+pub(in crate::xml) fn after(tree: &Tree, element: usize) -> Insertion {
+    let own = &tree.elements[element];
+    let before = vec![Piece::Copy(own.lead)];
     Insertion {
         between: before.clone(),
         before,
-        ..Insertion::at(last.whole.end())
+        ..Insertion::at(own.whole.end())
     }
 }
 

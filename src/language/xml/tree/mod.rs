@@ -170,14 +170,12 @@ impl Parse for Tree {
     /// Parses elements and comments. Refuses document type declarations, and entities with them.
     fn parse(text: &str) -> Self {
         let mut tree = Self::default();
-        let scan = scan::scan(text);
-        if let Some(refused) = scan.refused {
-            tree.fault = Some(refused);
-            return tree;
-        }
-        match document(text) {
+        let read = scan::scan(text).and_then(|unclosed| {
+            document(text).map_err(|error| fault::diagnostic(text, &error, unclosed))
+        });
+        match read {
             Ok(document) => tree.fill(text, &document),
-            Err(error) => tree.fault = Some(fault::diagnostic(text, &error, scan.unclosed)),
+            Err(fault) => tree.fault = Some(fault),
         }
         tree
     }
@@ -188,9 +186,8 @@ pub(super) fn fault_of_beginning(text: &str) -> Option<Diagnostic> {
     /// An error this close to the end may be caused by the cut: longer than any reference, and than
     /// any delimiter of a comment or the like.
     const NEAR: usize = 64;
-    let scan = scan::scan(text);
-    if scan.refused.is_some() {
-        return scan.refused;
+    if let Err(refused) = scan::scan(text) {
+        return Some(refused);
     }
     match document(text) {
         // What follows may close open elements.

@@ -12,21 +12,14 @@ const MOST_NAME_SPACES: usize = 64;
 /// Maximum nesting depth of elements, far more than in any scene.
 const MOST_LEVELS: usize = 1 << 17;
 
-/// The result of the scan.
-pub(super) struct Scan {
-    /// The error for what is refused.
-    pub(super) refused: Option<Diagnostic>,
-    /// The innermost element that is never closed, by its `<` and name.
-    pub(super) unclosed: Option<Span>,
-}
-
-/// Scans a text. Skips anything that is not XML.
-pub(super) fn scan(text: &str) -> Scan {
+/// Scans a text; returns the innermost element that is never closed, by its `<` and name. Skips
+/// anything that is not XML.
+///
+/// # Errors
+///
+/// Fails at what is refused.
+pub(super) fn scan(text: &str) -> Result<Option<Span>, Diagnostic> {
     let mut open: Vec<Span> = Vec::new();
-    let refuse = |refused| Scan {
-        refused: Some(refused),
-        unclosed: None,
-    };
     let mut name_spaces = 0;
     let mut at = 0;
     while let Some(offset) = text[at..].find('<') {
@@ -46,7 +39,7 @@ pub(super) fn scan(text: &str) -> Scan {
             .get(..9)
             .is_some_and(|mark| mark.eq_ignore_ascii_case("<!doctype"))
         {
-            return refuse(doctype(Span::new(start, start + 9)));
+            return Err(doctype(Span::new(start, start + 9)));
         } else if rest.starts_with("</") {
             open.pop();
             until(">")
@@ -61,28 +54,25 @@ pub(super) fn scan(text: &str) -> Scan {
                 if MOST_NAME_SPACES < name_spaces {
                     let span = Span::new(start + at, start + at + name.len());
                     let expected = "elements without prefixes";
-                    return refuse(too_many(span, MOST_NAME_SPACES, "namespaces", expected));
+                    return Err(too_many(span, MOST_NAME_SPACES, "namespaces", expected));
                 }
             }
             let name = Span::new(start, start + name);
             if MOST_ATTRIBUTES < tag.matches('=').count() {
                 let expected = "fewer attributes";
-                return refuse(too_many(name, MOST_ATTRIBUTES, "attributes", expected));
+                return Err(too_many(name, MOST_ATTRIBUTES, "attributes", expected));
             }
             if !tag.ends_with("/>") {
                 if open.len() == MOST_LEVELS {
                     let (what, expected) = ("levels of elements", "fewer levels");
-                    return refuse(too_many(name, MOST_LEVELS, what, expected));
+                    return Err(too_many(name, MOST_LEVELS, what, expected));
                 }
                 open.push(name);
             }
             end
         };
     }
-    Scan {
-        refused: None,
-        unclosed: open.pop(),
-    }
+    Ok(open.pop())
 }
 
 /// The end of a tag, after its `>`, from an offset inside the tag but not between quotes.

@@ -5,7 +5,9 @@ use std::collections::HashSet;
 use super::textures::{number, tinted, with};
 use super::{attribute, begin, element, rgb, value};
 use crate::losses::{Loss, Losses, Of};
-use scene::{Faces, Gloss, Highlight, Material, Pattern, Reflectance, Rgb, Scene, Shadow, Side};
+use scene::{
+    Faces, Gloss, Highlight, Material, Pattern, Reflectance, Rgb, Scene, Shadow, Side, Texture,
+};
 
 const AMBIENT: Loss = Loss {
     keys: &["ka", "Ka"],
@@ -94,12 +96,12 @@ pub(super) fn write(
     for ((index, material), name) in (0..).zip(scene.materials.iter()).zip(names) {
         report(Of::Material(index), material, scene, losses);
         let maps = material.maps.as_deref();
-        let mut emission = (material.emission, maps.and_then(|maps| maps.emission));
+        let (mut emission, mut map) = (material.emission, maps.and_then(|maps| maps.emission));
         if is_baked {
-            emission.0 += ambient * material.ambient.unwrap_or(material.diffuse);
-            emission.1 = maps.and_then(|maps| maps.ambient);
+            emission += ambient * material.ambient.unwrap_or(material.diffuse);
+            map = maps.and_then(|maps| maps.ambient);
         }
-        one(text, material, name, emission, scene);
+        one(text, material, name, (emission, map), scene);
     }
 }
 
@@ -125,11 +127,8 @@ fn report(of: Of, material: &Material, scene: &Scene, losses: &mut Losses<'_>) {
         lose(&BUMP);
     }
     let texture = maps.diffuse.and_then(|at| scene.textures.get(at as usize));
-    let has_lines = |pattern: &Pattern| match pattern {
-        Pattern::Checker { side, .. } => *side == Side::One,
-        Pattern::Image(_) | Pattern::Clamped(_) => false,
-    };
-    if texture.is_some_and(|texture| has_lines(&texture.pattern)) {
+    let has_lines = |texture: &Texture| matches!(texture.pattern, Pattern::Checker { side, .. } if side == Side::One);
+    if texture.is_some_and(has_lines) {
         lose(&LINES);
     }
 }
