@@ -99,15 +99,10 @@ pub fn around_mesh(mesh: &ShownMesh<'_>) -> String {
         text.push_str("    </light>\n");
     }
     text.push_str("  </scene>\n\n");
-    let Focus {
-        distance,
-        lens_radius,
-    } = Focus::PINHOLE;
+    let focus = Focus::PINHOLE;
     let [width, height] = SIZE.map(f64::from);
-    let view = camera_of(
-        [eye, target, mesh.up.axis()],
-        [ANGLE, distance, lens_radius, width, height],
-    );
+    let numbers = [ANGLE, focus.distance, focus.lens_radius, width, height];
+    let view = camera_of([eye, target, mesh.up.axis()], numbers);
     camera(&mut text, &view, ANGLE);
     text.push_str("</xml>\n");
     text

@@ -251,13 +251,12 @@ impl Source {
             Some(scale) if is_uniform => self.scaled_evenly(scale, factors.x, decimals),
             Some(scale) => self.set(scale, factors * scale.vector(), decimals),
             None => {
-                let factors = factors
-                    .to_array()
-                    .map(|factor| rounded(1.0, factor, decimals));
+                let parts = factors.to_array();
+                let parts = parts.map(|factor| rounded(1.0, factor, decimals));
                 let text = if is_uniform {
-                    attributes(&["value"], &factors[..1], f64::NAN)
+                    attributes(&["value"], &parts[..1], f64::NAN)
                 } else {
-                    attributes(&["x", "y", "z"], &factors, 1.0)
+                    attributes(&["x", "y", "z"], &parts, 1.0)
                 };
                 vec![self.inserted(element, before, &format!("<scale{text}/>"))]
             }

@@ -6,7 +6,6 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::Lowering;
 use super::surfaces::lit;
-use crate::node::Node;
 use crate::schema::SIZES;
 use crate::xml::origins::What;
 use geometry::{Instance, Shape};
@@ -26,8 +25,6 @@ const LEFT_OUT: &str = "the object is left out";
 /// The attribute that names a mesh.
 #[derive(Clone, Copy)]
 struct Named<'a> {
-    /// Index of the object.
-    object: usize,
     element: usize,
     attribute: usize,
     span: Span,
@@ -38,12 +35,11 @@ impl<'a> Lowering<'a> {
     /// The shape of an object whose mesh has been read, and the material of the parts without one.
     pub(super) fn mesh(
         &mut self,
-        object: usize,
+        element: usize,
         frame: Option<DAffine3>,
         material: Option<usize>,
     ) -> Option<(Shape, usize)> {
-        let element = self.origins.objects()[object].element as usize;
-        let named = self.named_mesh(object, element)?;
+        let named = self.named_mesh(element)?;
         let model = self.model(named)?;
         // An object's own material counts even if it is not defined.
         let tags = match self.word(element, "material") {
@@ -65,24 +61,23 @@ impl<'a> Lowering<'a> {
         Some((shape, material.unwrap_or_else(|| self.white())))
     }
 
-    fn named_mesh(&mut self, object: usize, element: usize) -> Option<Named<'a>> {
+    fn named_mesh(&mut self, element: usize) -> Option<Named<'a>> {
         let attribute = self.tree.attribute_at(self.text, element, "name");
-        let name = attribute.map_or("", |at| self.tree.attributes[at].unescaped(self.text));
-        if let Some(attribute) = attribute.filter(|_| !name.is_empty()) {
-            self.origins.note_file(element, attribute, What::Mesh);
-            return Some(Named {
-                object,
-                element,
-                attribute,
-                span: self.tree.attributes[attribute].value,
-                name,
-            });
-        }
-        let message = format!("{}: the name is missing", self.display_name(element));
-        let value = attribute.map(|attribute| self.tree.attributes[attribute].value);
-        let place = value.unwrap_or_else(|| self.place(element));
-        self.error(place, || message, EXPECTED);
-        None
+        let value = attribute.map(|at| &self.tree.attributes[at]);
+        let name = value.map_or("", |value| value.unescaped(self.text));
+        let span = value.map_or_else(|| self.place(element), |value| value.value);
+        let Some(attribute) = attribute.filter(|_| !name.is_empty()) else {
+            let message = format!("{}: the name is missing", self.display_name(element));
+            self.error(span, || message, EXPECTED);
+            return None;
+        };
+        self.origins.note_file(element, attribute, What::Mesh);
+        Some(Named {
+            element,
+            attribute,
+            span,
+            name,
+        })
     }
 
     /// The named mesh, if it has been read; reports its problems. An object without one is left out.
@@ -95,7 +90,7 @@ impl<'a> Lowering<'a> {
                 Some(model)
             }
             Err(NoMesh::Unread { reason, hint }) => {
-                let object = self.origins.name(Node::Object(named.object));
+                let object = self.display_name(named.element);
                 let hint = match hint {
                     Some(hint) => format!("{LEFT_OUT}; {hint}"),
                     None => LEFT_OUT.to_owned(),
@@ -109,7 +104,7 @@ impl<'a> Lowering<'a> {
                 if self.reported_meshes.insert(named.name) {
                     self.warn_of(named, lines);
                 }
-                let object = self.origins.name(Node::Object(named.object));
+                let object = self.display_name(named.element);
                 self.report.warning(|| Diagnostic {
                     message: format!("{object}: {}", reason.message),
                     ..cited(named.span, named.name, reason).with_hint(LEFT_OUT)

@@ -39,7 +39,7 @@ impl Lowering<'_> {
             let shaped = if *kind == GROUP {
                 None
             } else if *kind == OBJ {
-                self.mesh(index, frame, material)
+                self.mesh(element, frame, material)
             } else {
                 let shape = frame.and_then(|frame| self.shape(kind, element, frame));
                 shape.map(|shape| (shape, material.unwrap_or_else(|| self.white())))

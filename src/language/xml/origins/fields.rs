@@ -29,21 +29,21 @@ pub(in crate::xml) fn of(
         placed: Vec::new(),
     };
     match node {
-        Node::View => {
-            for parameter in CAMERA {
-                match (origins.camera, origins.root) {
-                    (Some(camera), _) => rows.parameter(camera, parameter),
-                    (None, Some(root)) => {
-                        let insertion = insert::grandchild(tree, root, "<camera>", "</camera>");
-                        rows.missing(parameter, insertion);
-                    }
-                    (None, None) => {}
+        Node::View => match (origins.camera, origins.root) {
+            (Some(camera), _) => {
+                for parameter in CAMERA {
+                    rows.parameter(camera, parameter);
+                }
+                rows.single(camera, &GAMMA);
+            }
+            (None, Some(root)) => {
+                let insertion = insert::in_camera(tree, root);
+                for parameter in CAMERA {
+                    rows.missing(parameter, insertion.clone());
                 }
             }
-            if let Some(element) = origins.camera {
-                rows.single(element, &GAMMA);
-            }
-        }
+            (None, None) => {}
+        },
         Node::Render => {
             let place = origins.render.map(|_| &origins.settings);
             let insertion = match (origins.render, origins.root) {

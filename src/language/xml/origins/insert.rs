@@ -55,23 +55,15 @@ pub(in crate::xml) fn first(tree: &Tree, parent: usize) -> Insertion {
         span: Span::at(own.tag.end()),
         before: between.clone(),
         between,
-        after: is_empty
-            .then_some(Piece::Copy(own.lead))
-            .into_iter()
-            .collect(),
+        after: Vec::from_iter(is_empty.then_some(Piece::Copy(own.lead))),
     }
 }
 
-/// Where to insert an element into a parent that is missing itself.
-pub(super) fn grandchild(
-    tree: &Tree,
-    grandparent: usize,
-    open: &'static str,
-    close: &'static str,
-) -> Insertion {
-    let outer = child(tree, grandparent);
+/// Where to insert an element into the camera, which is missing itself.
+pub(super) fn in_camera(tree: &Tree, root: usize) -> Insertion {
+    let outer = child(tree, root);
     let lead = outer.between.clone();
-    let is_indented = tree.elements[grandparent].depth > 0
+    let is_indented = tree.elements[root].depth > 0
         || lead
             .iter()
             .any(|piece| matches!(piece, Piece::Copy(span) if !span.is_empty()));
@@ -80,10 +72,10 @@ pub(super) fn grandchild(
         between.push(Piece::Literal("  "));
     }
     let mut before = outer.before;
-    before.push(Piece::Literal(open));
+    before.push(Piece::Literal("<camera>"));
     before.extend(&between);
     let mut after = lead;
-    after.push(Piece::Literal(close));
+    after.push(Piece::Literal("</camera>"));
     after.extend(outer.after);
     Insertion {
         span: outer.span,

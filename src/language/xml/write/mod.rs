@@ -15,17 +15,17 @@ use crate::losses::Losses;
 use crate::rendering::spelled;
 use crate::spelling;
 use crate::surroundings::angle;
-use scene::{Camera, Focus, Rgb, Scene, Setting, Size};
+use scene::{Camera, Focus, Rgb, Scene, Size};
 
 /// Writes a scene and reports what it loses.
 pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
     let mut text = "<xml>\n  <scene>\n".to_owned();
-    let Setting {
-        background,
-        environment,
-        ..
-    } = scene.setting;
-    for (word, around) in [("background", background), ("environment", environment)] {
+    let setting = &scene.setting;
+    let surroundings = [
+        ("background", setting.background),
+        ("environment", setting.environment),
+    ];
+    for (word, around) in surroundings {
         if around.colour != Rgb::ZERO {
             let tint = (around.colour, around.texture);
             textures::tinted(&mut text, (4, word), tint, scene);
