@@ -56,9 +56,8 @@ impl SceneText for Source {
     }
 
     fn depth(&self, node: Node) -> usize {
-        self.origins
-            .get(node)
-            .map_or(0, |place| place.depth as usize)
+        let place = self.origins.get(node);
+        place.map_or(0, |place| place.depth as usize)
     }
 
     fn is_group(&self, object: usize) -> bool {
@@ -205,10 +204,8 @@ impl SceneText for Source {
     }
 
     fn render_removal(&self, key: &str) -> Vec<Edit> {
-        let element = self
-            .origins
-            .render
-            .and_then(|at| self.tree.elements.get(at));
+        let render = self.origins.render;
+        let element = render.and_then(|at| self.tree.elements.get(at));
         let removed = element.and_then(|element| {
             let around = Around::Lead(if element.lead.is_empty() {
                 Span::at(element.whole.start())

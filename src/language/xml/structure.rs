@@ -313,13 +313,10 @@ impl Source {
         let Some(next) = self.tree.elements.get(after) else {
             return false;
         };
+        let other = self.origins.own_node(after);
+        let is_next = other.is_some_and(|other| is_alike(other, node));
         let end = Span::at(self.with_comment_behind(own.whole));
-        next.parent == own.parent
-            && self
-                .origins
-                .own_node(after)
-                .is_some_and(|other| is_alike(other, node))
-            && follows(&self.text, end, next.whole)
+        next.parent == own.parent && is_next && follows(&self.text, end, next.whole)
     }
 
     /// The text that moves with a node.

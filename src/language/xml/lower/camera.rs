@@ -94,10 +94,9 @@ impl Lowering<'_> {
     /// Reads background and environment; `root` is the place of messages about a missing scene.
     pub(super) fn surroundings(&mut self, root: Span) {
         let Some(scene) = self.origins.scene else {
-            let expected = "`<scene>` in `<xml>`";
-            return self
-                .report
-                .warning(|| Diagnostic::warning(root, "no `scene` element", expected));
+            let warning = Diagnostic::warning(root, "no `scene` element", "`<scene>` in `<xml>`");
+            self.report.warning(|| warning);
+            return;
         };
         self.setting.background = self.tinted(scene, &BACKGROUND);
         self.setting.environment = self.tinted(scene, &ENVIRONMENT);

@@ -51,11 +51,12 @@ pub(in crate::xml) fn first(tree: &Tree, parent: usize) -> Insertion {
         };
     }
     let is_empty = own.close as usize == own.tag.end();
+    let after = is_empty.then_some(Piece::Copy(own.lead));
     Insertion {
-        span: Span::at(own.tag.end()),
         before: between.clone(),
         between,
-        after: Vec::from_iter(is_empty.then_some(Piece::Copy(own.lead))),
+        after: after.into_iter().collect(),
+        ..Insertion::at(own.tag.end())
     }
 }
 
