@@ -120,7 +120,7 @@ impl Source {
         placed.spans.iter().enumerate().map(number).collect()
     }
 
-    /// The values that change numbers of a field. `spelled` are those that are missing in the text.
+    /// The values that change numbers of a field. `spelled` spells those that are missing in the text.
     pub(super) fn changed(
         &self,
         placed: &FieldSpans,

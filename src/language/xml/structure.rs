@@ -262,7 +262,8 @@ impl Source {
         let materials: HashSet<_> = nodes.iter().copied().collect();
         let elements: Vec<_> = nodes.iter().map(|&node| self.span(node)).collect();
         let is_inside = |place: &Place| {
-            let inner = self.tree.elements[place.element as usize].whole;
+            let own = self.tree.elements.get(place.element as usize);
+            let inner = own.map_or_else(|| Span::at(0), |own| own.whole);
             let holds = |outer: &Span| outer.start() <= inner.start() && inner.end() <= outer.end();
             elements.iter().any(holds)
         };
