@@ -5,9 +5,7 @@ use std::collections::HashSet;
 use super::textures::{number, tinted, with};
 use super::{attribute, begin, element, rgb, value};
 use crate::losses::{Loss, Losses, Of};
-use scene::{
-    Faces, Gloss, Highlight, Material, Pattern, Reflectance, Rgb, Scene, Shadow, Side, Texture,
-};
+use scene::{Faces, Gloss, Highlight, Material, Pattern, Reflectance, Rgb, Scene, Shadow, Side};
 
 const AMBIENT: Loss = Loss {
     keys: &["ka", "Ka"],
@@ -127,8 +125,8 @@ fn report(of: Of, material: &Material, scene: &Scene, losses: &mut Losses<'_>) {
         lose(&BUMP);
     }
     let texture = maps.diffuse.and_then(|at| scene.textures.get(at as usize));
-    let has_lines = |texture: &Texture| matches!(texture.pattern, Pattern::Checker { side, .. } if side == Side::One);
-    if texture.is_some_and(has_lines) {
+    let pattern = texture.map(|texture| &texture.pattern);
+    if matches!(pattern, Some(Pattern::Checker { side, .. }) if *side == Side::One) {
         lose(&LINES);
     }
 }
