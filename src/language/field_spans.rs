@@ -21,20 +21,22 @@ pub struct FieldSpans {
 /// The implicit part of a field, and how to insert it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Implicit {
-    /// The missing attributes, in the order of the components.
-    pub(super) attributes: Vec<ImplicitAttribute>,
+    /// All components.
+    pub(super) components: Vec<Component>,
     /// The element to write them in, if that is missing too.
     pub(super) element: Option<&'static str>,
     /// The place and the surroundings of the insertion.
     pub(super) insertion: Insertion,
 }
 
-/// A missing attribute.
+/// A component that a text may omit.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct ImplicitAttribute {
-    /// The component it sets.
-    pub(super) component: usize,
+pub(super) struct Component {
+    /// What is written before its value.
     pub(super) name: &'static str,
+    /// Its value; `None` if the text omits it.
+    pub(super) place: Option<Span>,
+    /// Its value if the text omits it.
     pub(super) default: Cow<'static, str>,
     /// Whether it must be written with the others, whose presence would change its default.
     pub(super) is_required: bool,
@@ -73,11 +75,34 @@ impl FieldSpans {
         }
     }
 
+    /// A field whose components the text may omit: they are inserted there, in this element if that is
+    /// missing, too.
+    pub(super) fn with_defaults(
+        field: &'static Field,
+        components: Vec<Component>,
+        element: Option<&'static str>,
+        insertion: Insertion,
+    ) -> Self {
+        let missing = Span::at(insertion.span.start());
+        let places = components.iter().map(|own| own.place);
+        let is_explicit = places.clone().all(|place| place.is_some());
+        let spans = places.map(|place| place.unwrap_or(missing)).collect();
+        let implicit = Implicit {
+            components,
+            element,
+            insertion,
+        };
+        Self {
+            field,
+            spans,
+            implicit: (!is_explicit).then(|| Box::new(implicit)),
+        }
+    }
+
     /// The default of a component that the text omits.
     pub fn default_of(&self, component: usize) -> Option<&str> {
-        let missing = &self.implicit.as_ref()?.attributes;
-        let own = missing.iter().find(|own| own.component == component);
-        own.map(|own| &*own.default)
+        let own = self.implicit.as_ref()?.components.get(component)?;
+        own.place.is_none().then_some(&*own.default)
     }
 
     /// Whether the text states any of the components.

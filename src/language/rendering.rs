@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use super::field_spans::{FieldSpans, Implicit, ImplicitAttribute, Insertion, Piece, Wanted};
+use super::field_spans::{Component, FieldSpans, Insertion, Piece, Wanted};
 use super::report::{did_you_mean, no_number, number, quoted};
 use super::schema::{Field, Kind, Range};
 use super::view::line_from;
@@ -295,23 +295,13 @@ pub(super) fn fields(
     let own = place.map(|place| place.rendering).unwrap_or_default();
     let effective = own.or(*defaults);
     let placed = |((key, field), part): (&'static (RenderKey, Field), Option<Part>)| {
-        if let Some(part) = part {
-            return FieldSpans::explicit(field, vec![part.value]);
-        }
-        FieldSpans {
-            field,
-            spans: vec![Span::at(insertion.span.start())],
-            implicit: Some(Box::new(Implicit {
-                attributes: vec![ImplicitAttribute {
-                    component: 0,
-                    name: field.key,
-                    default: key.value(&effective).into(),
-                    is_required: false,
-                }],
-                element,
-                insertion: insertion.clone(),
-            })),
-        }
+        let component = Component {
+            name: field.key,
+            place: part.map(|part| part.value),
+            default: key.value(&effective).into(),
+            is_required: false,
+        };
+        FieldSpans::with_defaults(field, vec![component], element, insertion.clone())
     };
     FIELDS.iter().zip(stated).map(placed).collect()
 }
@@ -337,7 +327,7 @@ pub(super) fn insertion(
 /// Returns the edits that insert these values into a comment where the text omits them.
 pub(super) fn insertions(text: &str, wanted: &[Wanted<'_>]) -> Vec<Edit> {
     super::field_spans::insertions(text, wanted, |implicit, values| {
-        let names = implicit.attributes.iter().map(|attribute| attribute.name);
+        let names = implicit.components.iter().map(|own| own.name);
         let words = names
             .zip(values)
             .map(|(name, (_, value))| format!(" {name} {value}"));

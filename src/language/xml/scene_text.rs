@@ -258,17 +258,15 @@ impl Source {
 fn markup(implicit: &Implicit, values: &[(usize, String)]) -> String {
     let mut markup = String::new();
     markup.extend(implicit.element.into_iter().flat_map(|name| ["<", name]));
-    for attribute in &implicit.attributes {
-        let value = values
-            .iter()
-            .find(|(component, _)| attribute.component == *component);
+    for (component, own) in implicit.components.iter().enumerate() {
+        let value = values.iter().find(|(of, _)| *of == component);
         let value = match value {
             Some((_, value)) => &**value,
-            None if attribute.is_required => &*attribute.default,
+            None if own.is_required => &*own.default,
             None => continue,
         };
         let value = escaped(value, '"');
-        markup.extend([" ", attribute.name, "=\"", &value, "\""]);
+        markup.extend([" ", own.name, "=\"", &value, "\""]);
     }
     markup.extend(implicit.element.map(|_| "/>"));
     markup

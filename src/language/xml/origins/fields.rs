@@ -2,15 +2,13 @@
 
 use super::insert;
 use super::{Origins, Role};
-use crate::field_spans::{FieldSpans, Implicit, ImplicitAttribute, Insertion};
+use crate::field_spans::{Component, FieldSpans, Insertion};
 use crate::node::Node;
 use crate::rendering;
-use crate::schema::Field;
 use crate::xml::parameter::{Attributes, Parameter, Single};
 use crate::xml::schema::{BACKGROUND, CAMERA, CHECKER, ENVIRONMENT, GAMMA, TEXTURE, class_of};
 use crate::xml::tree::Tree;
 use scene::{Integrator, Rendering, Transfer};
-use text::Span;
 
 /// Maximum number of rows of a node; nobody reads more.
 const MOST_ROWS: usize = 256;
@@ -106,10 +104,10 @@ impl Rows<'_> {
     /// Adds an attribute that is a field of its own.
     fn single(&mut self, element: usize, single: &'static Single) {
         let default = single.missing(self.origins.transfer);
-        let part = Part::of((self.text, self.tree), element, single.attribute, default);
+        let own = component((self.text, self.tree), element, single.attribute, default);
         let insertion = insert::attribute(self.tree, element);
-        self.placed
-            .push(field(&single.field, &[part], None, insertion));
+        let placed = FieldSpans::with_defaults(&single.field, vec![own], None, insertion);
+        self.placed.push(placed);
     }
 
     fn parameter(&mut self, holder: usize, parameter: &'static Parameter) {
@@ -161,44 +159,33 @@ impl Rows<'_> {
     /// Adds a parameter whose element is missing.
     fn missing(&mut self, parameter: &'static Parameter, insertion: Insertion) {
         let names = parameter.reading.attributes().iter();
-        let parts = names.zip(parameter.missing).map(|(&name, &default)| Part {
+        let components = names.zip(parameter.missing);
+        let components = components.map(|(&name, &default)| Component {
             name,
             place: None,
-            default,
+            default: default.into(),
             is_required: default != parameter.inside,
         });
-        let parts: Vec<_> = parts.collect();
-        let element = Some(parameter.element);
-        self.placed
-            .push(field(&parameter.field, &parts, element, insertion));
+        let (components, element) = (components.collect(), Some(parameter.element));
+        let field = &parameter.field;
+        let placed = FieldSpans::with_defaults(field, components, element, insertion);
+        self.placed.push(placed);
     }
 }
 
-/// A component of a field: an attribute.
-struct Part {
+/// The attribute of an element with this name.
+fn component(
+    (text, tree): (&str, &Tree),
+    element: usize,
     name: &'static str,
-    /// Its value; `None` if it is missing.
-    place: Option<Span>,
     default: &'static str,
-    /// Whether it must be written with the others.
-    is_required: bool,
-}
-
-impl Part {
-    /// The attribute of an element with this name.
-    fn of(
-        (text, tree): (&str, &Tree),
-        element: usize,
-        name: &'static str,
-        default: &'static str,
-    ) -> Self {
-        let attribute = tree.attribute(text, element, name);
-        Self {
-            name,
-            place: attribute.map(|attribute| attribute.value),
-            default,
-            is_required: false,
-        }
+) -> Component {
+    let attribute = tree.attribute(text, element, name);
+    Component {
+        name,
+        place: attribute.map(|attribute| attribute.value),
+        default: default.into(),
+        is_required: false,
     }
 }
 
@@ -209,50 +196,20 @@ pub(in crate::xml) fn numbers(
     element: usize,
     parameter: &'static Parameter,
 ) -> FieldSpans {
-    let part = |name| Part::of((text, tree), element, name, parameter.inside(name));
+    let read = |name| component((text, tree), element, name, parameter.inside(name));
     let names = parameter.reading.attributes().iter();
-    let mut parts: Vec<_> = names.map(|&name| part(name)).collect();
+    let mut components: Vec<_> = names.map(|&name| read(name)).collect();
     let mut own = &parameter.field;
     match parameter.reading {
         // It stands in for a missing `angle`.
-        Attributes::Rotation if parts[3].place.is_none() => parts[3].place = part("value").place,
-        Attributes::Vector | Attributes::Colour if parts[3].place.is_none() => parts.truncate(3),
+        Attributes::Rotation if components[3].place.is_none() => {
+            components[3].place = read("value").place;
+        }
+        Attributes::Vector | Attributes::Colour if components[3].place.is_none() => {
+            components.truncate(3);
+        }
         Attributes::Vector | Attributes::Colour => own = &parameter.scaled,
         Attributes::Number | Attributes::Rotation => {}
     }
-    field(own, &parts, None, insert::attribute(tree, element))
-}
-
-/// A field whose components are attributes of one element; `element` is its name if that is missing.
-fn field(
-    field: &'static Field,
-    parts: &[Part],
-    element: Option<&'static str>,
-    insertion: Insertion,
-) -> FieldSpans {
-    let there = Span::at(insertion.span.start());
-    let missing = parts
-        .iter()
-        .enumerate()
-        .filter(|(_, part)| part.place.is_none());
-    let attributes = missing.map(|(component, part)| ImplicitAttribute {
-        component,
-        name: part.name,
-        default: part.default.into(),
-        is_required: part.is_required,
-    });
-    let attributes: Vec<_> = attributes.collect();
-    let implicit = Implicit {
-        attributes,
-        element,
-        insertion,
-    };
-    FieldSpans {
-        field,
-        spans: parts
-            .iter()
-            .map(|part| part.place.unwrap_or(there))
-            .collect(),
-        implicit: (!implicit.attributes.is_empty()).then(|| Box::new(implicit)),
-    }
+    FieldSpans::with_defaults(own, components, None, insert::attribute(tree, element))
 }
