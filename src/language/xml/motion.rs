@@ -152,8 +152,6 @@ impl Source {
         let linear = transforms.len() - usize::from(last.is_some());
         let linear = transforms[..linear].last();
         let origin = last.map_or(DVec3::ZERO, Transform::vector);
-        let point =
-            |point: DVec3| inside.transform_point3(motion.point(outside.transform_point3(point)));
         let mut edits = match *motion {
             Motion::Move(_) => Vec::new(),
             Motion::Rotate { axis, angle, .. } => {
@@ -185,7 +183,8 @@ impl Source {
                 self.scaled(element, (linear, last), factors, decimals)
             }
         };
-        edits.extend(self.placed(element, last, point(origin), decimals)?);
+        let point = inside.transform_point3(motion.point(outside.transform_point3(origin)));
+        edits.extend(self.placed(element, last, point, decimals)?);
         Ok(edits)
     }
 
