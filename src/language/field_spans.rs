@@ -21,14 +21,13 @@ pub struct FieldSpans {
 /// The implicit part of a field, and how to insert it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Implicit {
-    /// The default of each component; `None` if the text states it.
-    pub(super) defaults: Vec<Option<Cow<'static, str>>>,
-    /// The attributes to write, in this order.
-    pub(super) attributes: Vec<ImplicitAttribute>,
+    /// All components.
+    pub(super) components: Vec<Component>,
     /// The element to write them in, if that is missing too.
     pub(super) element: Option<&'static str>,
     /// The place and the surroundings of the insertion.
     pub(super) insertion: Insertion,
+    /// What limits the effect to the node, if that needs more.
     pub(super) limit: Option<Limit>,
 }
 
@@ -41,12 +40,14 @@ pub(super) struct Limit {
     pub(super) inherited: Option<Span>,
 }
 
-/// A missing attribute.
+/// A component that a text may omit.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct ImplicitAttribute {
-    /// The component it sets.
-    pub(super) component: usize,
+pub(super) struct Component {
+    /// What is written before its value.
     pub(super) name: &'static str,
+    /// Its value; `None` if the text omits it.
+    pub(super) place: Option<Span>,
+    /// Its value if the text omits it.
     pub(super) default: Cow<'static, str>,
     /// Whether it must be written with the others, whose presence would change its default.
     pub(super) is_required: bool,
@@ -85,9 +86,43 @@ impl FieldSpans {
         }
     }
 
+    /// A field whose components the text may omit: they are inserted there, in this element if that is
+    /// missing, too.
+    pub(super) fn with_defaults(
+        field: &'static Field,
+        components: Vec<Component>,
+        element: Option<&'static str>,
+        insertion: Insertion,
+    ) -> Self {
+        let missing = Span::at(insertion.span.start());
+        let places = components.iter().map(|own| own.place);
+        let is_explicit = places.clone().all(|place| place.is_some());
+        let spans = places.map(|place| place.unwrap_or(missing)).collect();
+        let implicit = Implicit {
+            components,
+            element,
+            insertion,
+            limit: None,
+        };
+        Self {
+            field,
+            spans,
+            implicit: (!is_explicit).then(|| Box::new(implicit)),
+        }
+    }
+
+    /// The same with an effect that is limited to the node.
+    pub(super) fn limited(mut self, limit: Limit) -> Self {
+        if let Some(implicit) = &mut self.implicit {
+            implicit.limit = Some(limit);
+        }
+        self
+    }
+
     /// The default of a component that the text omits.
     pub fn default_of(&self, component: usize) -> Option<&str> {
-        self.implicit.as_ref()?.defaults.get(component)?.as_deref()
+        let own = self.implicit.as_ref()?.components.get(component)?;
+        own.place.is_none().then_some(&*own.default)
     }
 
     /// Whether the components that the text omits have the values that it states for other nodes, too.
@@ -142,8 +177,18 @@ pub(super) fn insertions(
 }
 
 impl Insertion {
+    /// An insertion without anything around it.
+    pub(super) fn at(offset: usize) -> Self {
+        Self {
+            span: Span::at(offset),
+            before: Vec::new(),
+            between: Vec::new(),
+            after: Vec::new(),
+        }
+    }
+
     /// The edit that inserts all of these here.
-    fn edit(&self, text: &str, all: &[String]) -> Edit {
+    pub(super) fn edit(&self, text: &str, all: &[String]) -> Edit {
         let copied = |pieces: &[Piece]| -> String {
             let pieces = pieces.iter().map(|piece| match piece {
                 Piece::Literal(literal) => literal,

@@ -1,9 +1,8 @@
 //! Render settings in a text, in the place that other readers of its language skip, for all languages.
 
-use std::borrow::Cow;
 use std::sync::LazyLock;
 
-use super::field_spans::{FieldSpans, Implicit, ImplicitAttribute, Insertion, Piece, Wanted};
+use super::field_spans::{Component, FieldSpans, Insertion, Piece, Wanted};
 use super::report::{did_you_mean, number_in_comment, quoted};
 use super::schema::{Field, Kind, Range};
 use super::view::{beginning, line_ending, whole_lines};
@@ -290,26 +289,13 @@ pub(super) fn fields(
     let own = place.map(|place| place.rendering).unwrap_or_default();
     let effective = own.or(*defaults);
     let placed = |((key, field), part): (&'static (RenderKey, Field), Option<Part>)| {
-        if let Some(part) = part {
-            return FieldSpans::explicit(field, vec![part.value]);
-        }
-        let default = Cow::from(key.value(&effective));
-        FieldSpans {
-            field,
-            spans: vec![Span::at(insertion.span.start())],
-            implicit: Some(Box::new(Implicit {
-                defaults: vec![Some(default.clone())],
-                attributes: vec![ImplicitAttribute {
-                    component: 0,
-                    name: field.key,
-                    default,
-                    is_required: false,
-                }],
-                element,
-                insertion: insertion.clone(),
-                limit: None,
-            })),
-        }
+        let component = Component {
+            name: field.key,
+            place: part.map(|part| part.value),
+            default: key.value(&effective).into(),
+            is_required: false,
+        };
+        FieldSpans::with_defaults(field, vec![component], element, insertion.clone())
     };
     FIELDS.iter().zip(stated).map(placed).collect()
 }
@@ -322,17 +308,11 @@ pub(super) fn insertion(
     opening: &'static str,
 ) -> Insertion {
     match place {
-        Some(place) => Insertion {
-            span: Span::at(place.whole.end()),
-            before: Vec::new(),
-            between: Vec::new(),
-            after: Vec::new(),
-        },
+        Some(place) => Insertion::at(place.whole.end()),
         None => Insertion {
-            span: Span::at(beginning(text)),
             before: vec![Piece::Literal(opening)],
-            between: Vec::new(),
             after: vec![Piece::Literal(line_ending(text))],
+            ..Insertion::at(beginning(text))
         },
     }
 }
@@ -340,7 +320,7 @@ pub(super) fn insertion(
 /// Returns the edits that insert these values into a comment where the text omits them.
 pub(super) fn insertions(text: &str, wanted: &[Wanted<'_>]) -> Vec<Edit> {
     super::field_spans::insertions(text, wanted, |implicit, values| {
-        let names = implicit.attributes.iter().map(|attribute| attribute.name);
+        let names = implicit.components.iter().map(|own| own.name);
         let words = names
             .zip(values)
             .map(|(name, (_, value))| format!(" {name} {value}"));

@@ -400,17 +400,15 @@ pub(super) fn lines_after(text: &str, block: Span, lines: &str) -> Edit {
 
 /// A copied text without surrounding blank lines, with the line endings of another text.
 pub(super) fn adapted(copied: &str, text: &str) -> String {
+    inner_lines(copied).join(line_ending(text))
+}
+
+/// The lines of a copied text without surrounding blank ones.
+pub(super) fn inner_lines(copied: &str) -> Vec<&str> {
     let lines = copied.lines().map(|line| line.trim_end_matches('\r'));
-    let lines: Vec<_> = lines.collect();
-    let is_blank = |line: &&str| line.trim().is_empty();
-    let start = lines.iter().take_while(|line| is_blank(line)).count();
-    let end = lines.len()
-        - lines[start..]
-            .iter()
-            .rev()
-            .take_while(|line| is_blank(line))
-            .count();
-    lines[start..end].join(line_ending(text))
+    let mut lines: Vec<_> = lines.skip_while(|line| line.trim().is_empty()).collect();
+    while lines.pop_if(|line| line.trim().is_empty()).is_some() {}
+    lines
 }
 
 /// Returns the edits that exchange two nodes, the first of which precedes the second; `node` is the

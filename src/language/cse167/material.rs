@@ -4,9 +4,7 @@ use super::Source;
 use super::lower::state::{DEFAULTS, MATERIAL};
 use crate::SceneText;
 use crate::engine::places::fields;
-use crate::field_spans::{
-    self, FieldSpans, Implicit, ImplicitAttribute, Insertion, Limit, Piece, Wanted,
-};
+use crate::field_spans::{self, Component, FieldSpans, Insertion, Limit, Piece, Wanted};
 use crate::node::Node;
 use crate::rendering;
 use crate::schema::Record;
@@ -83,34 +81,27 @@ impl Source {
             record.name,
             former.join(" ")
         );
-        let attribute = |(component, default): (usize, &String)| ImplicitAttribute {
-            component,
+        let component = |value: String| Component {
             name: record.name,
-            default: default.clone().into(),
+            place: None,
+            default: value.into(),
             is_required: true,
         };
-        FieldSpans {
-            field: record.field(0),
-            spans: vec![Span::at(start); former.len()],
-            implicit: Some(Box::new(Implicit {
-                attributes: former.iter().enumerate().map(attribute).collect(),
-                defaults: former.into_iter().map(|value| Some(value.into())).collect(),
-                element: None,
-                insertion: Insertion {
-                    span: Span::at(start),
-                    before: vec![Piece::Copy(indent)],
-                    between: vec![Piece::Literal(ending), Piece::Copy(indent)],
-                    after: vec![Piece::Literal(ending)],
-                },
-                limit: Some(Limit {
-                    edit: Edit {
-                        span: Span::at(line_end(text, last.end())),
-                        text: restored,
-                    },
-                    inherited,
-                }),
-            })),
-        }
+        let insertion = Insertion {
+            before: vec![Piece::Copy(indent)],
+            between: vec![Piece::Literal(ending), Piece::Copy(indent)],
+            after: vec![Piece::Literal(ending)],
+            ..Insertion::at(start)
+        };
+        let components = former.into_iter().map(component).collect();
+        let placed = FieldSpans::with_defaults(record.field(0), components, None, insertion);
+        placed.limited(Limit {
+            edit: Edit {
+                span: Span::at(line_end(text, last.end())),
+                text: restored,
+            },
+            inherited,
+        })
     }
 
     /// The commands around an object that state values for it alone and restore the former ones.
@@ -171,17 +162,14 @@ pub(super) fn insertions(text: &str, wanted: &[Wanted<'_>]) -> Vec<Edit> {
     });
     let own: Vec<_> = own.map(|wanted| (*wanted).clone()).collect();
     edits.extend(field_spans::insertions(text, &own, |implicit, values| {
-        let value = |attribute: &ImplicitAttribute| {
-            let given = values.iter().find(|(at, _)| *at == attribute.component);
-            given.map_or_else(|| attribute.default.to_string(), |(_, value)| value.clone())
+        let value = |(at, component): (usize, &Component)| {
+            let given = values.iter().find(|(given, _)| *given == at);
+            given.map_or_else(|| component.default.to_string(), |(_, value)| value.clone())
         };
-        let values: Vec<_> = implicit.attributes.iter().map(value).collect();
-        let names = implicit.attributes.first();
-        format!(
-            "{} {}",
-            names.map_or("", |first| first.name),
-            values.join(" ")
-        )
+        let components = &implicit.components;
+        let values: Vec<_> = components.iter().enumerate().map(value).collect();
+        let name = components.first().map_or("", |first| first.name);
+        format!("{name} {}", values.join(" "))
     }));
     edits
 }

@@ -1,10 +1,10 @@
 //! New elements of `.xml`.
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
 use super::Source;
-use super::table::{LightKind, MaterialKind, ObjectKind};
 use super::tree::escaped;
+use crate::schema::Category;
 use crate::structure::NewNode;
 use crate::view::line_ending;
 use crate::{Addition, Node, Placement, SceneText, StructureEdits, StructureError};
@@ -36,47 +36,45 @@ pub(super) fn addition(
     let vector = |name: &str, vector: DVec3| {
         let parts = ["x", "y", "z"].iter().zip(vector.to_array());
         let parts = parts.map(|(part, number)| format!(" {part}=\"{}\"", wish.literal(number)));
-        format!("  <{name}{}/>", parts.collect::<String>())
+        format!("{name}{}", parts.collect::<String>())
     };
     let above = wish.centre + DVec3::new(0.0, 0.0, 4.0 * wish.half);
-    let light = |kind: &str, parts: &[String]| {
-        let mut lines = vec![format!("<light type=\"{kind}\" name=\"{kind}\">")];
-        lines.extend_from_slice(parts);
-        lines.push("</light>".to_owned());
-        lines
-    };
-    let intensity = |value: &str| format!("  <intensity value=\"{value}\"/>");
-    let lines = match name {
-        "point light" => light("point", &[intensity("1"), vector("position", above)]),
+    let light = |kind, parts: &[&str]| element("light", &named(kind, kind), parts);
+    let text = match name {
+        "point light" => {
+            let position = vector("position", above);
+            light("point", &["intensity value=\"1\"", &position])
+        }
         "direct light" => {
             let down = vector("direction", DVec3::new(1.0, 1.0, -2.0));
-            light("direct", &[intensity("0.6"), down])
+            light("direct", &["intensity value=\"0.6\"", &down])
         }
-        "ambient light" => light("ambient", &[intensity("0.2")]),
+        "ambient light" => light("ambient", &["intensity value=\"0.2\""]),
         "blinn material" => material("blinn", "blinn"),
         "phong material" => material("phong", "phong"),
-        "microfacet material" => vec![
-            "<material type=\"microfacet\" name=\"microfacet\">".to_owned(),
-            "  <color r=\"0.8\" g=\"0.8\" b=\"0.8\"/>".to_owned(),
-            "  <roughness value=\"0.4\"/>".to_owned(),
-            "</material>".to_owned(),
-        ],
+        "microfacet material" => element(
+            "material",
+            &named("microfacet", "microfacet"),
+            &[
+                "color r=\"0.8\" g=\"0.8\" b=\"0.8\"",
+                "roughness value=\"0.4\"",
+            ],
+        ),
         _ => source.object(name, wish, &vector),
     };
-    let text = lines.join(line_ending(&source.text));
-    let needs_material = matches!(name, "sphere" | "plane") && source.origins.materials.is_empty();
+    let ending = line_ending(&source.text);
+    let text = text.replace('\n', ending);
+    let needs_material =
+        matches!(name, "sphere" | "plane") && source.origins.of(Category::Material).is_empty();
     let placement = source.insertion(&text, wish.after)?;
     if !needs_material {
         return Ok(placement);
     }
-    let material = material("blinn", "blinn").join(line_ending(&source.text));
+    let material = material("blinn", "blinn").replace('\n', ending);
     let mut both = source.insertion(&material, Node::View)?;
     let own = placement.edits;
     if both.edits[0].span == own[0].span {
-        return source.insertion(
-            &[material, text].join(line_ending(&source.text)),
-            wish.after,
-        );
+        return source.insertion(&[material, text].join(ending), wish.after);
     }
     both.edits.extend(own);
     Edit::sort(&mut both.edits);
@@ -84,87 +82,57 @@ pub(super) fn addition(
 }
 
 /// A plain grey material.
-pub(super) fn material(kind: &str, name: &str) -> Vec<String> {
-    let name = escaped(name, '"');
-    vec![
-        format!("<material type=\"{kind}\" name=\"{name}\">"),
-        "  <diffuse r=\"0.7\" g=\"0.7\" b=\"0.7\"/>".to_owned(),
-        "  <specular value=\"0.3\"/>".to_owned(),
-        "</material>".to_owned(),
-    ]
+pub(super) fn material(kind: &str, name: &str) -> String {
+    let parts = [
+        "diffuse r=\"0.7\" g=\"0.7\" b=\"0.7\"",
+        "specular value=\"0.3\"",
+    ];
+    element("material", &named(kind, name), &parts)
 }
 
-/// The words for the kinds that a node can be changed to.
-pub(super) fn kinds(node: Node) -> Vec<&'static str> {
-    match node {
-        // A mesh is named by its file, which nothing else has.
-        Node::Object(_) => {
-            let types = ObjectKind::TYPES.iter().copied();
-            types.filter(|kind| *kind != "obj").collect()
-        }
-        Node::Light(_) => LightKind::TYPES.into(),
-        Node::Material(_) => MaterialKind::TYPES.into(),
-        _ => Vec::new(),
-    }
+/// An element with these attributes and empty elements in it.
+fn element(name: &str, attributes: &str, parts: &[&str]) -> String {
+    let parts: String = parts.iter().map(|part| format!("  <{part}/>\n")).collect();
+    format!("<{name}{attributes}>\n{parts}</{name}>")
 }
 
-/// Returns the edits that change a node's type; its elements stay.
-pub(super) fn retyping(
-    source: &Source,
-    node: Node,
-    kind: &str,
-) -> Result<Vec<Edit>, StructureError> {
-    let fields = source.fields(node);
-    let field = fields.iter().find(|placed| placed.field.key == "type");
-    let fixed = || StructureError::Inexpressible(format!("{} has no type", source.name(node)));
-    let field = field.ok_or_else(fixed)?;
-    Ok(field.edits(source, &[(0, kind.to_owned())]))
+/// The attributes of a thing of a kind with a name.
+fn named(kind: &str, name: &str) -> String {
+    format!(" type=\"{kind}\" name=\"{}\"", escaped(name, '"'))
 }
 
 impl Source {
-    /// The lines of a new object, in the space of the group that it comes to stand in.
+    /// A new object, in the space of the group that it comes to stand in.
     fn object(
         &self,
         name: &str,
         wish: &NewNode<'_>,
         vector: &dyn Fn(&str, DVec3) -> String,
-    ) -> Vec<String> {
+    ) -> String {
         let beside = match wish.after {
-            Node::Object(_) => self.origins.element(&self.tree, wish.after),
+            Node::Object(_) => self.element(wish.after),
             _ => None,
         };
-        let inside = beside.map(|element| self.outside(element).inverse());
-        let (centre, size) = match inside {
-            Some(inside) => {
-                let size = libm::cbrt(inside.matrix3.determinant().abs());
-                (inside.transform_point3(wish.centre), size * wish.half)
-            }
-            None => (wish.centre, wish.half),
-        };
+        let inside = beside.map_or(DAffine3::IDENTITY, |element| {
+            self.outside(element).inverse()
+        });
+        let size = libm::cbrt(inside.matrix3.determinant().abs()) * wish.half;
+        let scale = format!("scale value=\"{}\"", wish.literal(size));
+        let translate = vector("translate", inside.transform_point3(wish.centre));
         let selected = match wish.after {
             Node::Material(index) => Some(index),
             Node::Object(index) => self.material(index),
             _ => None,
         };
-        let material = self.origins.materials.get(selected.unwrap_or(0));
+        let materials = self.origins.of(Category::Material);
+        let material = materials.get(selected.unwrap_or(0));
         let material = material.map_or(Some("blinn"), |place| place.name.as_deref());
-        let material = material.filter(|_| matches!(name, "sphere" | "plane"));
         let material = material.map(|name| format!(" material=\"{}\"", escaped(name, '"')));
-        let material = material.unwrap_or_default();
-        let head = match name {
-            "group" => "<object name=\"group\">".to_owned(),
-            "mesh" => {
-                let file = escaped(wish.file.unwrap_or("mesh.obj"), '"');
-                format!("<object type=\"obj\" name=\"{file}\">")
-            }
-            kind => format!("<object type=\"{kind}\" name=\"{kind}\"{material}>"),
+        let attributes = match name {
+            "group" => return element("object", " name=\"group\"", &[&translate]),
+            "mesh" => named("obj", wish.file.unwrap_or("mesh.obj")),
+            kind => named(kind, kind) + &material.unwrap_or_default(),
         };
-        let scale =
-            (name != "group").then(|| format!("  <scale value=\"{}\"/>", wish.literal(size)));
-        let mut lines = vec![head];
-        lines.extend(scale);
-        lines.push(vector("translate", centre));
-        lines.push("</object>".to_owned());
-        lines
+        element("object", &attributes, &[&scale, &translate])
     }
 }

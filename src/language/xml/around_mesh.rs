@@ -1,11 +1,11 @@
 //! A new scene that shows a mesh.
 
-use std::fmt::Write;
+use glam::{BVec3, DVec3};
 
-use glam::DVec3;
-
-use super::write::{attribute, word, xyz};
+use super::view::camera_of;
+use super::write::{camera, element, light, value, word, xyz};
 use geometry::Aabb;
+use scene::{Focus, Rgb};
 
 /// The axis of a mesh that points up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,20 +70,20 @@ pub fn around_mesh(mesh: &ShownMesh<'_>) -> String {
     let window = round(centre + radius * mesh.up.of(WINDOW));
 
     let mut text = String::from(BEGINNING);
-    text.push_str("    <object type=\"obj\"");
-    word(&mut text, "name", mesh.name);
-    if !mesh.has_materials {
-        word(&mut text, "material", "clay");
-    }
-    text.push_str("/>\n    <!-- A square of side 2, enlarged and laid under the mesh. -->\n");
-    text.push_str("    <object type=\"plane\" name=\"ground\" material=\"stone\">\n");
-    element(&mut text, "      <scale", |text| {
-        attribute(text, "value", rounded(0.5 * GROUND * radius, radius));
+    element(&mut text, 4, "object", |text| {
+        word(text, "type", "obj");
+        word(text, "name", mesh.name);
+        if !mesh.has_materials {
+            word(text, "material", "clay");
+        }
     });
+    text.push_str(GROUND_BEGINNING);
+    let half = rounded(0.5 * GROUND * radius, radius);
+    element(&mut text, 6, "scale", |text| value(text, half));
     if mesh.up == Up::Y {
         text.push_str("      <rotate angle=\"-90\" x=\"1\"/>\n");
     }
-    element(&mut text, "      <translate", |text| xyz(text, foot));
+    element(&mut text, 6, "translate", |text| xyz(text, foot));
     text.push_str("    </object>\n\n");
     text.push_str(STONE);
     if !mesh.has_materials {
@@ -91,28 +91,20 @@ pub fn around_mesh(mesh: &ShownMesh<'_>) -> String {
     }
     text.push_str(LIGHTS);
     for (name, colour, place) in [
-        ("lamp", "r=\"0.8\" g=\"0.74\" b=\"0.64\"", lamp),
-        ("window", "r=\"0.26\" g=\"0.31\" b=\"0.4\"", window),
+        ("lamp", Rgb::new(0.8, 0.74, 0.64), lamp),
+        ("window", Rgb::new(0.26, 0.31, 0.4), window),
     ] {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "    <light type=\"point\" name=\"{name}\">");
-        let _ = writeln!(text, "      <intensity {colour}/>");
-        element(&mut text, "      <position", |text| xyz(text, place));
+        light(&mut text, "point", Some(name), colour);
+        element(&mut text, 6, "position", |text| xyz(text, place));
         text.push_str("    </light>\n");
     }
-    text.push_str("  </scene>\n\n  <camera>\n");
-    element(&mut text, "    <position", |text| xyz(text, eye));
-    element(&mut text, "    <target", |text| xyz(text, target));
-    element(&mut text, "    <up", |text| xyz(text, mesh.up.axis()));
-    element(&mut text, "    <fov", |text| {
-        attribute(text, "value", ANGLE);
-    });
-    for (name, size) in ["    <width", "    <height"].into_iter().zip(SIZE) {
-        element(&mut text, name, |text| {
-            attribute(text, "value", size.into());
-        });
-    }
-    text.push_str("  </camera>\n</xml>\n");
+    text.push_str("  </scene>\n\n");
+    let focus = Focus::PINHOLE;
+    let [width, height] = SIZE.map(f64::from);
+    let numbers = [ANGLE, focus.distance, focus.lens_radius, width, height];
+    let view = camera_of([eye, target, mesh.up.axis()], numbers);
+    camera(&mut text, &view, ANGLE);
+    text.push_str("</xml>\n");
     text
 }
 
@@ -123,6 +115,10 @@ const BEGINNING: &str = "\
     <environment r=\"0.35\" g=\"0.4\" b=\"0.5\"/>
 
     <!-- The mesh in its own coordinates. -->
+";
+
+const GROUND_BEGINNING: &str = "    <!-- A square of side 2, enlarged and laid under the mesh. -->
+    <object type=\"plane\" name=\"ground\" material=\"stone\">
 ";
 
 const STONE: &str = "    <material type=\"blinn\" name=\"stone\">
@@ -144,12 +140,6 @@ const LIGHTS: &str = "
     </light>
     <!-- A warm light from the upper right, and a cool one that fills its shadows. -->
 ";
-
-fn element(text: &mut String, opening: &str, attributes: impl FnOnce(&mut String)) {
-    text.push_str(opening);
-    attributes(text);
-    text.push_str("/>\n");
-}
 
 impl Up {
     /// The unit vector that points up.
@@ -174,13 +164,8 @@ fn distance(up: Up, bounds: &Aabb, target: DVec3) -> f64 {
     let [width, height] = SIZE.map(f64::from);
     let slope = FILLED * libm::tan(0.5 * ANGLE.to_radians());
     let corners = (0..8).map(|corner| {
-        let is_max = |axis: u32| corner >> axis & 1 == 1;
-        let pick = |axis: u32, min: f64, max: f64| if is_max(axis) { max } else { min };
-        DVec3::new(
-            pick(0, bounds.min.x, bounds.max.x),
-            pick(1, bounds.min.y, bounds.max.y),
-            pick(2, bounds.min.z, bounds.max.z),
-        ) - target
+        let is_max = BVec3::new(corner & 1 != 0, corner & 2 != 0, corner & 4 != 0);
+        DVec3::select(is_max, bounds.max, bounds.min) - target
     });
     let needed = corners.map(|corner| {
         let aside = (corner.dot(right).abs() * height / width).max(corner.dot(above).abs());

@@ -2,17 +2,18 @@
 
 mod add;
 mod around_mesh;
-mod clashing_ids;
 mod copies;
-mod insertions;
 mod lower;
 mod memory_estimate;
 mod motion;
 mod origins;
+mod parameter;
 mod roles;
 mod scene_text;
+// One parameter per row.
+#[rustfmt::skip]
+mod schema;
 mod structure;
-mod table;
 #[cfg(test)]
 mod tests;
 mod tree;

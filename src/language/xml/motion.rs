@@ -4,10 +4,12 @@
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::Source;
-use super::origins::Role;
-use super::table::Parameter;
+use super::origins::fields::numbers;
+use super::origins::{Role, insert};
+use super::parameter::Parameter;
+use crate::field_spans::FieldSpans;
 use crate::form::{Along, Motion, PRECISE, rotation, rounded};
-use crate::structure::{Pose, number, replacements};
+use crate::structure::{Pose, number};
 use crate::view::spelled;
 use crate::{Node, SceneText, StructureError};
 use geometry::normalise;
@@ -17,13 +19,30 @@ use text::{Edit, Span, spell_like};
 struct Transform {
     element: usize,
     parameter: &'static Parameter,
+    placed: FieldSpans,
+    /// Its numbers, as written or by default: a vector, and its factor or an angle.
+    numbers: Vec<f64>,
 }
 
-/// The numbers of a transform, as written or by default.
-struct Numbers {
-    /// Each with the name of its attribute and its place.
-    written: Vec<(&'static str, Option<Span>, f64)>,
-    factor: f64,
+impl Transform {
+    fn is(&self, name: &str) -> bool {
+        self.parameter.element == name
+    }
+
+    /// What its vector is multiplied by.
+    fn factor(&self) -> f64 {
+        let factor = self.numbers.get(3).filter(|_| !self.is("rotate"));
+        factor.copied().unwrap_or(1.0)
+    }
+
+    fn vector(&self) -> DVec3 {
+        self.factor() * DVec3::from_slice(&self.numbers)
+    }
+
+    fn matrix(&self) -> DAffine3 {
+        let angle = self.numbers.get(3).copied().unwrap_or_default();
+        self.parameter.matrix(self.vector(), angle)
+    }
 }
 
 impl Source {
@@ -31,22 +50,24 @@ impl Source {
     pub(super) fn pose_of(&self, node: Node) -> Option<Pose> {
         match node {
             Node::Object(_) => {
-                let element = self.origins.element(&self.tree, node)?;
+                let element = self.element(node)?;
                 let world = self.outside(element) * self.local(element);
-                let axes = [
-                    world.matrix3.x_axis,
-                    world.matrix3.y_axis,
-                    world.matrix3.z_axis,
-                ];
+                let axes = [world.x_axis, world.y_axis, world.z_axis];
                 Some(Pose {
                     centre: world.translation,
                     axes: axes.map(|axis| normalise(axis).unwrap_or(DVec3::X)),
                 })
             }
-            Node::Light(_) => Some(Pose {
-                centre: self.field_vector(node, "position")?,
-                axes: DVec3::AXES,
-            }),
+            Node::Light(_) => {
+                let fields = self.fields(node);
+                let place = fields
+                    .iter()
+                    .find(|placed| placed.field.key == "position")?;
+                Some(Pose {
+                    centre: self.vector(place).0,
+                    axes: DVec3::AXES,
+                })
+            }
             _ => None,
         }
     }
@@ -61,55 +82,59 @@ impl Source {
         match node {
             Node::Object(_) => self.moved_object(node, motion, decimals),
             Node::Light(_) => Ok(self.moved_light(node, motion, decimals)),
-            _ => Err(refused(format!("{} has no position", self.name(node)))),
+            _ => Err(refused(&format!("{} has no position", self.name(node)))),
         }
     }
 
     fn moved_light(&self, node: Node, motion: &Motion, decimals: usize) -> Vec<Edit> {
-        let fields = self.fields(node);
-        let wanted = fields.iter().filter_map(|placed| {
-            let old = self.field_vector(node, placed.field.key)?;
-            let (new, decimals) = match placed.field.key {
-                "position" => (motion.point(old), decimals),
-                "direction" => (motion.direction(old), PRECISE),
+        let fields = self.fields(node).into_iter();
+        let edits = fields.filter_map(|placed| {
+            let (moved, decimals): (fn(&Motion, DVec3) -> DVec3, _) = match placed.field.key {
+                "position" => (Motion::point, decimals),
+                "direction" => (Motion::direction, PRECISE),
                 _ => return None,
             };
-            let factor = placed
-                .spans
-                .get(3)
-                .map_or(1.0, |span| number(&self.text, *span));
-            let values = (0..3).filter_map(|at| {
-                let (old, new) = (old[at] / factor, new[at] / factor);
-                let new = rounded(old, new, decimals);
-                let spelled = match placed.default_of(at) {
-                    Some(_) => spelled(new),
-                    None => spell_like(placed.spans[at].of(&self.text).trim(), new),
-                };
-                (old != new).then_some((at, spelled))
-            });
-            Some((placed, values.collect()))
+            let (old, factor) = self.vector(&placed);
+            let new = moved(motion, old);
+            let [old, new] = [old, new].map(|vector| vector / factor);
+            let new = [0, 1, 2].map(|at| rounded(old[at], new[at], decimals));
+            let changed = self.changed(&placed, &old.to_array(), &new, spelled);
+            Some(self.edits(&[(&placed, changed)]))
         });
-        let wanted: Vec<_> = wanted.collect();
-        self.edits(&wanted)
+        edits.flatten().collect()
     }
 
-    /// The vector of a field, times its factor; `None` if the node has no such field.
-    fn field_vector(&self, node: Node, key: &str) -> Option<DVec3> {
-        let fields = self.fields(node);
-        let placed = fields.iter().find(|placed| placed.field.key == key)?;
-        let component = |at: usize| match placed.default_of(at) {
+    /// The vector of a field, times its factor, and the factor.
+    fn vector(&self, placed: &FieldSpans) -> (DVec3, f64) {
+        let numbers = self.numbers(placed);
+        let factor = numbers.get(3).copied().unwrap_or(1.0);
+        (factor * DVec3::from_slice(&numbers), factor)
+    }
+
+    /// The numbers of a field, as written or by default.
+    fn numbers(&self, placed: &FieldSpans) -> Vec<f64> {
+        let number = |(at, span): (usize, &Span)| match placed.default_of(at) {
             Some(default) => default.parse().unwrap_or_default(),
-            None => placed
-                .spans
-                .get(at)
-                .map_or(0.0, |span| number(&self.text, *span)),
+            None => number(&self.text, *span),
         };
-        let factor = if 3 < placed.spans.len() {
-            component(3)
-        } else {
-            1.0
-        };
-        Some(factor * DVec3::new(component(0), component(1), component(2)))
+        placed.spans.iter().enumerate().map(number).collect()
+    }
+
+    /// The values that change numbers of a field. `spelled` spells those that are missing in the text.
+    pub(super) fn changed(
+        &self,
+        placed: &FieldSpans,
+        old: &[f64],
+        new: &[f64],
+        spelled: fn(f64) -> String,
+    ) -> Vec<(usize, String)> {
+        let changed = old.iter().zip(new).enumerate();
+        let changed = changed.filter(|(_, (old, new))| old != new);
+        let values = changed.map(|(at, (_, &new))| match placed.default_of(at) {
+            Some(_) => (at, spelled(new)),
+            None => (at, spell_like(placed.spans[at].of(&self.text).trim(), new)),
+        });
+        values.collect()
     }
 
     fn moved_object(
@@ -118,69 +143,49 @@ impl Source {
         motion: &Motion,
         decimals: usize,
     ) -> Result<Vec<Edit>, StructureError> {
-        let fixed = || refused(format!("{} has no position", self.name(node)));
-        let element = self.origins.element(&self.tree, node).ok_or_else(fixed)?;
+        let fixed = || refused(&format!("{} has no position", self.name(node)));
+        let element = self.element(node).ok_or_else(fixed)?;
         let outside = self.outside(element);
         let inside = outside.inverse();
         let transforms = self.transforms(element);
-        let last = transforms
-            .last()
-            .filter(|last| last.parameter.element == "translate");
-        let before = last.map(|last| self.numbers(last).vector());
-        let origin = before.unwrap_or(DVec3::ZERO);
-        let point =
-            |point: DVec3| inside.transform_point3(motion.point(outside.transform_point3(point)));
-        match *motion {
-            Motion::Move(_) => self.placed(element, last, point(origin), decimals),
+        let last = transforms.last().filter(|last| last.is("translate"));
+        let linear = transforms.len() - usize::from(last.is_some());
+        let linear = transforms[..linear].last();
+        let origin = last.map_or(DVec3::ZERO, Transform::vector);
+        let mut edits = match *motion {
+            Motion::Move(_) => Vec::new(),
             Motion::Rotate { axis, angle, .. } => {
-                let uneven = || {
-                    refused(
-                        "its group is scaled non-uniformly: rotate the group instead".to_owned(),
-                    )
-                };
+                let uneven =
+                    || refused("its group is scaled non-uniformly: rotate the group instead");
                 let local = conformal(outside.matrix3).ok_or_else(uneven)?;
                 let axis = normalise(inside.matrix3 * axis).ok_or_else(uneven)?;
                 let turn = rotation(axis, local.signum() * angle);
-                let mut edits = self.turned(element, &transforms, turn);
-                edits.extend(self.placed(element, last, point(origin), decimals)?);
-                Ok(sorted(edits))
-            }
-            Motion::Scale {
-                factor,
-                along: Along::Own(axis),
-                ..
-            } => {
-                let mut factors = DVec3::ONE;
-                factors[axis] = factor;
-                let first = transforms.first();
-                Ok(self.scaled(element, first, first, factors, decimals))
+                self.turned(element, (linear, last), turn)
             }
             Motion::Scale { factor, along, .. } => {
-                let factors = match along {
+                let mut factors = DVec3::ONE;
+                match along {
+                    Along::All => factors = DVec3::splat(factor),
+                    Along::Own(axis) => {
+                        factors[axis] = factor;
+                        let first = transforms.first();
+                        return Ok(self.scaled(element, (first, first), factors, decimals));
+                    }
                     Along::World(axis) => {
                         let local = inside.matrix3 * DVec3::AXES[axis];
                         let local = normalise(local).unwrap_or(DVec3::X).abs();
                         let own = (0..3).find(|&own| 1.0 - local[own] < 1e-9);
-                        let own = own.ok_or_else(|| {
-                            refused(
-                                "its group is rotated: press the axis key again for its own axis"
-                                    .to_owned(),
-                            )
-                        })?;
-                        let mut factors = DVec3::ONE;
-                        factors[own] = factor;
-                        factors
+                        let turned =
+                            "its group is rotated: press the axis key again for its own axis";
+                        factors[own.ok_or_else(|| refused(turned))?] = factor;
                     }
-                    Along::All | Along::Own(_) => DVec3::splat(factor),
-                };
-                let linear = transforms.len() - usize::from(last.is_some());
-                let at = transforms[..linear].last();
-                let scale = at.filter(|at| at.parameter.element == "scale");
-                let mut edits = self.scaled(element, scale, last, factors, decimals);
-                edits.extend(self.placed(element, last, point(origin), decimals)?);
-                Ok(sorted(edits))
+                }
+                self.scaled(element, (linear, last), factors, decimals)
             }
-        }
+        };
+        let point = inside.transform_point3(motion.point(outside.transform_point3(origin)));
+        edits.extend(self.placed(element, last, point, decimals)?);
+        Ok(edits)
     }
 
     /// The edits that put an object's last translation at a point.
@@ -192,32 +197,32 @@ impl Source {
         decimals: usize,
     ) -> Result<Vec<Edit>, StructureError> {
         if !point.is_finite() {
-            return Err(refused("the position is out of range".to_owned()));
+            return Err(refused("the position is out of range"));
         }
-        Ok(if let Some(last) = last {
-            self.set(last, point.to_array(), decimals)
-        } else {
-            let point = point
-                .to_array()
-                .map(|number| rounded(0.0, number, decimals));
-            if point == [0.0; 3] {
-                return Ok(Vec::new());
-            }
-            let attributes = attributes(&["x", "y", "z"], &point, 0.0);
-            vec![self.inserted(element, None, &format!("<translate{attributes}/>"))]
-        })
+        if let Some(last) = last {
+            return Ok(self.set(last, point, decimals));
+        }
+        let point = point.to_array();
+        let point = point.map(|number| rounded(0.0, number, decimals));
+        if point == [0.0; 3] {
+            return Ok(Vec::new());
+        }
+        let attributes = attributes(&["x", "y", "z"], &point, 0.0);
+        let markup = format!("<translate{attributes}/>");
+        Ok(vec![self.inserted(element, None, &markup)])
     }
 
-    /// The edits that rotate an object before its last translation.
-    fn turned(&self, element: usize, transforms: &[Transform], turn: DMat3) -> Vec<Edit> {
-        let is = |transform: &&Transform, name| transform.parameter.element == name;
-        let last = transforms.last().filter(|last| is(last, "translate"));
-        let linear = &transforms[..transforms.len() - usize::from(last.is_some())];
-        let old = linear.last().filter(|old| is(old, "rotate"));
-        let before = old.map_or(DMat3::IDENTITY, |old| self.matrix(old).matrix3);
-        let (axis, angle) = DQuat::from_mat3(&(turn * before))
-            .normalize()
-            .to_axis_angle();
+    /// The edits that rotate an object by a rotation, or write one before another transform.
+    fn turned(
+        &self,
+        element: usize,
+        (old, before): (Option<&Transform>, Option<&Transform>),
+        turn: DMat3,
+    ) -> Vec<Edit> {
+        let old = old.filter(|old| old.is("rotate"));
+        let known = old.map_or(DMat3::IDENTITY, |old| old.matrix().matrix3);
+        let turn = DQuat::from_mat3(&(turn * known)).normalize();
+        let (axis, angle) = turn.to_axis_angle();
         let degrees = rounded(0.0, angle.to_degrees(), 12);
         let axis = axis.to_array().map(|number| rounded(0.0, number, PRECISE));
         let [x, y, z] = axis;
@@ -226,7 +231,7 @@ impl Source {
         } else {
             let mut text = attributes(&["x", "y", "z"], &axis, 0.0);
             text.push_str(&attributes(&["angle"], &[degrees], f64::NAN));
-            vec![self.inserted(element, last, &format!("<rotate{text}/>"))]
+            vec![self.inserted(element, before, &format!("<rotate{text}/>"))]
         }
     }
 
@@ -234,28 +239,23 @@ impl Source {
     fn scaled(
         &self,
         element: usize,
-        scale: Option<&Transform>,
-        before: Option<&Transform>,
+        (scale, before): (Option<&Transform>, Option<&Transform>),
         factors: DVec3,
         decimals: usize,
     ) -> Vec<Edit> {
         // A factor needs digits that a short distance does not.
         let decimals = decimals.max(2) + 1;
         let is_uniform = factors.x == factors.y && factors.y == factors.z;
-        match scale.filter(|scale| scale.parameter.element == "scale") {
+        match scale.filter(|scale| scale.is("scale")) {
             Some(scale) if is_uniform => self.scaled_evenly(scale, factors.x, decimals),
-            Some(scale) => {
-                let scaled = factors * self.numbers(scale).vector();
-                self.set(scale, scaled.to_array(), decimals)
-            }
+            Some(scale) => self.set(scale, factors * scale.vector(), decimals),
             None => {
-                let factors = factors
-                    .to_array()
-                    .map(|factor| rounded(1.0, factor, decimals));
+                let parts = factors.to_array();
+                let parts = parts.map(|factor| rounded(1.0, factor, decimals));
                 let text = if is_uniform {
-                    attributes(&["value"], &factors[..1], f64::NAN)
+                    attributes(&["value"], &parts[..1], f64::NAN)
                 } else {
-                    attributes(&["x", "y", "z"], &factors, 1.0)
+                    attributes(&["x", "y", "z"], &parts, 1.0)
                 };
                 vec![self.inserted(element, before, &format!("<scale{text}/>"))]
             }
@@ -264,144 +264,75 @@ impl Source {
 
     /// The edits that multiply all parts of a scale, by its factor if it has one.
     fn scaled_evenly(&self, scale: &Transform, factor: f64, decimals: usize) -> Vec<Edit> {
-        let numbers = self.numbers(scale);
-        let new = rounded(numbers.factor, factor * numbers.factor, decimals);
-        if let Some(value) = self.origins.value(&self.tree, scale.element, "value") {
-            replacements(&self.text, &[value.value], &[new])
-        } else {
-            let end = self.tree.elements[scale.element].attributes_end as usize;
-            vec![Edit {
-                span: Span::at(end),
-                text: attributes(&["value"], &[new], 1.0),
-            }]
+        let mut new = scale.numbers.clone();
+        if let Some(own) = new.get_mut(3) {
+            *own *= factor;
+            return self.set_numbers(scale, &new, decimals);
         }
+        let end = self.tree.elements[scale.element].attributes_end as usize;
+        vec![Edit {
+            span: Span::at(end),
+            text: attributes(&["value"], &[rounded(1.0, factor, decimals)], 1.0),
+        }]
     }
 
     /// The edits that set the vector of a transform, keeping its factor.
-    fn set(&self, transform: &Transform, vector: [f64; 3], decimals: usize) -> Vec<Edit> {
-        let factor = self.numbers(transform).factor;
+    fn set(&self, transform: &Transform, vector: DVec3, decimals: usize) -> Vec<Edit> {
+        let factor = transform.factor();
         let factor = if factor == 0.0 { 1.0 } else { factor };
-        self.set_numbers(transform, &vector.map(|number| number / factor), decimals)
+        self.set_numbers(transform, &(vector / factor).to_array(), decimals)
     }
 
     fn set_numbers(&self, transform: &Transform, new: &[f64], decimals: usize) -> Vec<Edit> {
-        let numbers = self.numbers(transform);
-        let end = self.tree.elements[transform.element].attributes_end as usize;
-        let mut edits = Vec::new();
-        let mut missing = String::new();
-        for ((name, span, old), new) in numbers.written.iter().zip(new) {
-            let new = rounded(*old, *new, decimals);
-            match span {
-                Some(span) => edits.extend(replacements(&self.text, &[*span], &[new])),
-                None => missing.push_str(&attributes(&[name], &[new], *old)),
-            }
-        }
-        if !missing.is_empty() {
-            edits.push(Edit {
-                span: Span::at(end),
-                text: missing,
-            });
-        }
-        sorted(edits)
+        let old = &transform.numbers;
+        let new = old
+            .iter()
+            .zip(new)
+            .map(|(old, new)| rounded(*old, *new, decimals));
+        let new: Vec<_> = new.collect();
+        let changed = self.changed(&transform.placed, old, &new, |new| new.to_string());
+        self.edits(&[(&transform.placed, changed)])
     }
 
     /// The edit that writes a transform before another one, or after the last.
     fn inserted(&self, element: usize, before: Option<&Transform>, markup: &str) -> Edit {
-        let elements = &self.tree.elements;
+        let tree = &self.tree;
         if let Some(before) = before {
-            let next = &elements[before.element];
+            let next = &tree.elements[before.element];
             return Edit {
                 span: Span::at(next.whole.start()),
                 text: format!("{markup}{}", next.lead.of(&self.text)),
             };
         }
-        let last = self
-            .transforms(element)
-            .pop()
-            .map(|last| &elements[last.element]);
-        if let Some(last) = last {
-            return Edit {
-                span: Span::at(last.whole.end()),
-                text: format!("{}{markup}", last.lead.of(&self.text)),
-            };
-        }
-        let own = &elements[element];
-        let lead = own.lead.of(&self.text);
-        let indent = if lead.is_empty() { "" } else { "  " };
-        if own.is_empty_tag() {
-            let name = own.name.of(&self.text);
-            return Edit {
-                span: Span::new(own.attributes_end as usize, own.tag.end()),
-                text: format!(">{lead}{indent}{markup}{lead}</{name}>"),
-            };
-        }
-        let is_empty = own.close as usize == own.tag.end();
-        Edit {
-            span: Span::at(own.tag.end()),
-            text: format!("{lead}{indent}{markup}{}", if is_empty { lead } else { "" }),
-        }
+        let place = match self.transforms(element).last() {
+            Some(last) => insert::after(tree, last.element),
+            None => insert::first(tree, element),
+        };
+        place.edit(&self.text, &[markup.to_owned()])
     }
 
     /// The transforms of an element, in order.
     fn transforms(&self, element: usize) -> Vec<Transform> {
         let children = self.tree.children(element);
         let transforms = children.filter_map(|child| match self.origins.roles.get(child)? {
-            Role::Transform(parameter) => Some(Transform {
-                element: child,
-                parameter,
-            }),
+            Role::Transform(parameter) => {
+                let placed = numbers(&self.text, &self.tree, child, parameter);
+                Some(Transform {
+                    element: child,
+                    parameter,
+                    numbers: self.numbers(&placed),
+                    placed,
+                })
+            }
             _ => None,
         });
         transforms.collect()
     }
 
-    /// The numbers of a transform.
-    fn numbers(&self, transform: &Transform) -> Numbers {
-        let is_rotation = transform.parameter.element == "rotate";
-        let read = |name: &'static str, default: f64| {
-            let value = self.origins.value(&self.tree, transform.element, name);
-            let value = value.map(|value| value.value);
-            let given = value.map_or(default, |span| number(&self.text, span));
-            (name, value, given)
-        };
-        let default = if transform.parameter.element == "scale" {
-            1.0
-        } else {
-            0.0
-        };
-        let mut written: Vec<_> = ["x", "y", "z"].map(|name| read(name, default)).into();
-        let mut factor = 1.0;
-        if is_rotation {
-            let angle = read("angle", 0.0);
-            let value = read("value", 0.0);
-            written.push(if angle.1.is_none() && value.1.is_some() {
-                value
-            } else {
-                angle
-            });
-        } else {
-            factor = read("value", 1.0).2;
-        }
-        Numbers { written, factor }
-    }
-
-    fn matrix(&self, transform: &Transform) -> DAffine3 {
-        let numbers = self.numbers(transform);
-        let vector = numbers.vector();
-        match transform.parameter.element {
-            "scale" => DAffine3::from_scale(vector),
-            "rotate" => match (normalise(vector), numbers.written.get(3)) {
-                (Some(axis), Some((_, _, angle))) => DAffine3::from_mat3(rotation(axis, *angle)),
-                _ => DAffine3::IDENTITY,
-            },
-            _ => DAffine3::from_translation(vector),
-        }
-    }
-
     /// The product of an element's own transforms.
     fn local(&self, element: usize) -> DAffine3 {
         let transforms = self.transforms(element);
-        let matrices = transforms.iter().map(|transform| self.matrix(transform));
+        let matrices = transforms.iter().map(Transform::matrix);
         matrices.fold(DAffine3::IDENTITY, |before, next| next * before)
     }
 
@@ -415,13 +346,6 @@ impl Source {
             next = parent(around as usize);
         }
         product
-    }
-}
-
-impl Numbers {
-    fn vector(&self) -> DVec3 {
-        let part = |at: usize| self.written[at].2;
-        self.factor * DVec3::new(part(0), part(1), part(2))
     }
 }
 
@@ -446,11 +370,6 @@ fn attributes(names: &[&str], numbers: &[f64], default: f64) -> String {
     written.concat()
 }
 
-fn sorted(mut edits: Vec<Edit>) -> Vec<Edit> {
-    Edit::sort(&mut edits);
-    edits
-}
-
-fn refused(reason: String) -> StructureError {
-    StructureError::Inexpressible(reason)
+fn refused(reason: &str) -> StructureError {
+    StructureError::Inexpressible(reason.to_owned())
 }

@@ -3,12 +3,11 @@
 use std::borrow::Cow;
 use std::collections::HashSet;
 
-use super::insertions::insertions;
 use super::origins::{NamedPlace, What, fields};
-use super::table::ObjectKind;
-use super::tree::{escaped, quote};
+use super::schema::GROUP;
+use super::tree::{Attribute, escaped, quote};
 use super::{Source, lower, memory_estimate, view};
-use crate::field_spans::{Wanted, edits};
+use crate::field_spans::{Implicit, Wanted, edits, insertions};
 use crate::node::{FileKind, object_at, place_of};
 use crate::rendering::Around;
 use crate::schema::{Category, Field};
@@ -42,38 +41,32 @@ impl SceneText for Source {
     }
 
     fn fields(&self, node: Node) -> Vec<FieldSpans> {
-        fields::of(&self.origins, &self.tree, node)
+        fields::of(&self.text, &self.tree, &self.origins, node)
     }
 
     fn nodes(&self) -> Nodes {
         Nodes {
             view: self.origins.root.is_some(),
             surroundings: self.origins.scene.is_some(),
-            lights: self.origins.lights.len(),
-            materials: self.origins.materials.len(),
-            objects: self.origins.objects.len(),
+            lights: self.origins.of(Category::Light).len(),
+            materials: self.origins.of(Category::Material).len(),
+            objects: self.origins.objects().len(),
             ..Nodes::default()
         }
     }
 
     fn depth(&self, node: Node) -> usize {
-        match node {
-            Node::Object(index) => self
-                .origins
-                .objects
-                .get(index)
-                .map_or(0, |at| at.depth as usize),
-            _ => 0,
-        }
+        let place = self.origins.get(node);
+        place.map_or(0, |place| place.depth as usize)
     }
 
     fn is_group(&self, object: usize) -> bool {
-        let place = self.origins.objects.get(object);
-        place.is_some_and(|place| place.kind == ObjectKind::Group)
+        let place = self.origins.objects().get(object);
+        place.is_some_and(|place| *place.kind == GROUP)
     }
 
     fn group_of(&self, object: usize) -> Option<usize> {
-        let element = self.origins.objects.get(object)?.element as usize;
+        let element = self.element(Node::Object(object))?;
         let parent = self.tree.elements.get(element)?.parent?;
         match self.origins.node_of(parent as usize)? {
             Node::Object(group) => Some(group),
@@ -82,15 +75,14 @@ impl SceneText for Source {
     }
 
     fn span(&self, node: Node) -> Span {
-        let tree = &self.tree;
-        let element = self.origins.element(tree, node);
-        let element = element.and_then(|at| tree.elements.get(at));
+        let element = self.element(node);
+        let element = element.and_then(|at| self.tree.elements.get(at));
         element.map_or_else(|| Span::at(0), |element| element.whole)
     }
 
     fn comment(&self, node: Node) -> Option<&str> {
         let (text, tree) = (&*self.text, &self.tree);
-        let element = tree.elements.get(self.origins.element(tree, node)?)?;
+        let element = tree.elements.get(self.element(node)?)?;
         let own = element.tag;
         let content = |comment: &Span| {
             let content = comment
@@ -143,11 +135,9 @@ impl SceneText for Source {
             return Vec::new();
         }
         let mut known = HashSet::new();
-        let materials = self.origins.materials.iter().enumerate();
+        let materials = self.origins.of(category).iter().enumerate();
         let names = materials.filter_map(|(index, place)| {
-            let name = self
-                .origins
-                .value(&self.tree, place.element as usize, "name")?;
+            let name = self.value(place.element as usize, "name")?;
             Some((name.unescaped(&self.text), Node::Material(index)))
         });
         let names = names.filter(|(name, _)| !name.is_empty() && known.insert(*name));
@@ -160,16 +150,16 @@ impl SceneText for Source {
             let attribute = tree.attributes.get(place.attribute)?;
             let owner = self.origins.name(self.origins.node_of(place.element)?);
             let name = tree.elements.get(place.element)?.name.of(text);
-            let (kind, what) = match &place.what {
-                What::Mesh => (FileKind::Mesh, owner),
-                What::Map(keyword, path) => {
-                    let what = format!("{owner} {keyword} {}", visible(path));
-                    (FileKind::Picture, what)
-                }
-                What::Texture if self.origins.owners[place.element] as usize == place.element => {
-                    (FileKind::Picture, format!("{name} texture"))
-                }
-                What::Texture => (FileKind::Picture, format!("{owner} {name} texture")),
+            let is_own = self.origins.owners[place.element] as usize == place.element;
+            let what = match &place.what {
+                What::Mesh => owner,
+                What::Map(keyword, path) => format!("{owner} {keyword} {}", visible(path)),
+                What::Texture if is_own => format!("{name} texture"),
+                What::Texture => format!("{owner} {name} texture"),
+            };
+            let kind = match place.what {
+                What::Mesh => FileKind::Mesh,
+                What::Map(..) | What::Texture => FileKind::Picture,
             };
             let path = match &place.what {
                 What::Map(_, path) => path,
@@ -190,14 +180,13 @@ impl SceneText for Source {
             return 0;
         };
         let drawn = self.origins.drawn.iter();
-        drawn
-            .filter(|&&at| self.origins.object_materials[at] == Some(material))
-            .count()
+        let uses = |at: &&usize| self.material(**at) == Some(material);
+        drawn.filter(uses).count()
     }
 
     fn edits(&self, wanted: &[Wanted<'_>]) -> Vec<Edit> {
         let mut edits = edits(self, wanted);
-        edits.extend(insertions(&self.text, wanted));
+        edits.extend(insertions(&self.text, wanted, markup));
         Edit::sort(&mut edits);
         edits
     }
@@ -211,14 +200,12 @@ impl SceneText for Source {
     }
 
     fn material(&self, object: usize) -> Option<usize> {
-        *self.origins.object_materials.get(object)?
+        self.origins.objects().get(object)?.material
     }
 
     fn render_removal(&self, key: &str) -> Vec<Edit> {
-        let element = self
-            .origins
-            .render
-            .and_then(|at| self.tree.elements.get(at));
+        let render = self.origins.render;
+        let element = render.and_then(|at| self.tree.elements.get(at));
         let removed = element.and_then(|element| {
             let around = Around::Lead(if element.lead.is_empty() {
                 Span::at(element.whole.start())
@@ -243,7 +230,7 @@ impl SceneText for Source {
     }
 
     fn view_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit> {
-        view::edits(self, &self.fields(Node::View), before, camera)
+        view::edits(self, before, camera)
     }
 
     fn comment_marks(&self) -> [&'static str; 2] {
@@ -253,4 +240,34 @@ impl SceneText for Source {
     fn visibility_edits(&self, _: &[usize], _: Visibility) -> Result<Vec<Edit>, &'static str> {
         Err("an .xml scene draws all of its objects")
     }
+}
+
+impl Source {
+    /// The element of a node.
+    pub(super) fn element(&self, node: Node) -> Option<usize> {
+        self.origins.element(&self.tree, node)
+    }
+
+    /// The attribute of an element with this name.
+    pub(super) fn value(&self, element: usize, word: &str) -> Option<&Attribute> {
+        self.tree.attribute(&self.text, element, word)
+    }
+}
+
+/// The attributes with these values, in their element if that is missing too.
+fn markup(implicit: &Implicit, values: &[(usize, String)]) -> String {
+    let mut markup = String::new();
+    markup.extend(implicit.element.into_iter().flat_map(|name| ["<", name]));
+    for (component, own) in implicit.components.iter().enumerate() {
+        let value = values.iter().find(|(of, _)| *of == component);
+        let value = match value {
+            Some((_, value)) => &**value,
+            None if own.is_required => &*own.default,
+            None => continue,
+        };
+        let value = escaped(value, '"');
+        markup.extend([" ", own.name, "=\"", &value, "\""]);
+    }
+    markup.extend(implicit.element.map(|_| "/>"));
+    markup
 }

@@ -3,14 +3,17 @@
 
 use std::collections::HashSet;
 
-use super::copies::Copies;
-use super::table::ObjectKind;
-use super::tree::{escaped, quote};
-use super::{Source, add, clashing_ids, roles};
+use super::copies::{Copies, set_apart};
+use super::origins::Place;
+use super::schema::{OBJ, class_of};
+use super::tree::{escaped, respelled};
+use super::{Source, add, roles};
 use crate::frame::frameless;
 use crate::roles::Roles;
 use crate::schema::Category;
-use crate::structure::{Block, deletions, follows, line_before, lines, uncreatable};
+use crate::structure::{
+    Block, deletions, follows, line_before, lines, lines_after, pair, uncreatable,
+};
 use crate::view::{line_ending, line_from};
 use crate::{
     Addition, Motion, Neighbour, NewNode, Node, Placement, Pose, SceneText, StructureEdits,
@@ -20,49 +23,40 @@ use text::{Edit, Span, counted, line_end};
 
 impl StructureEdits for Source {
     fn consequence(&self, nodes: &[Node]) -> Option<String> {
-        match self.users_outside(nodes).len() {
-            0 => None,
-            1 => Some("1 object uses it and will be plain white".to_owned()),
-            users => Some(format!(
-                "{} use it and will be plain white",
-                counted(users, "object")
-            )),
-        }
+        let said = match self.users_outside(nodes).len() {
+            0 => return None,
+            1 => "1 object uses it".to_owned(),
+            users => format!("{} use it", counted(users, "object")),
+        };
+        Some(said + " and will be plain white")
     }
 
     fn removal(&self, nodes: &[Node]) -> Result<Vec<Edit>, StructureError> {
         let blocks: Result<Vec<_>, _> = nodes.iter().map(|&node| self.block(node)).collect();
         let mut edits = deletions(&self.text, blocks?.into_iter());
-        let users = self.users_outside(nodes);
-        edits.extend(
-            users
-                .into_iter()
-                .filter_map(|user| self.without_material(user)),
-        );
+        let users = self.users_outside(nodes).into_iter();
+        edits.extend(users.filter_map(|user| self.without_material(user)));
         Edit::sort(&mut edits);
         Ok(edits)
     }
 
     fn copied(&self, nodes: &[Node]) -> Result<String, StructureError> {
-        let mut copied: Vec<Span> = Vec::new();
-        let mut spans = Vec::new();
-        for &node in nodes {
-            spans.push(self.block(node)?.span());
-        }
+        let spans = nodes.iter().map(|&node| Ok(self.block(node)?.span()));
+        let mut spans = spans.collect::<Result<Vec<_>, _>>()?;
         spans.sort_unstable();
-        for span in spans {
-            // An element in another goes with that.
-            if copied.last().is_none_or(|last| last.end() < span.end()) {
-                copied.push(span);
-            }
-        }
-        let copies: Vec<_> = copied.iter().map(|span| span.of(&self.text)).collect();
+        // An element in another goes with that.
+        spans.dedup_by(|own, last| own.end() <= last.end());
+        let copies: Vec<_> = spans.iter().map(|span| span.of(&self.text)).collect();
         Ok(copies.join(line_ending(&self.text)))
     }
 
     fn insertion(&self, text: &str, after: Node) -> Result<Placement, StructureError> {
         let mut copies = Copies::of(text)?;
-        copies.rename(&self.names());
+        copies.rename(|category| {
+            let places = self.origins.of(category).iter();
+            let names = places.filter_map(|place| place.name.as_deref());
+            names.map(str::to_owned).collect()
+        });
         let scene = self.origins.scene.ok_or_else(|| StructureError::Foreign {
             reason: "there is no <scene> to hold it".to_owned(),
         })?;
@@ -99,52 +93,40 @@ impl StructureEdits for Source {
     }
 
     fn set_apart(&self, base: &str, theirs: &str) -> Vec<Edit> {
-        clashing_ids::set_apart(&self.text, &self.tree, base, theirs)
+        set_apart(&self.text, &self.tree, [base, theirs])
     }
 
     fn called(&self, node: Node) -> Option<&str> {
-        if !matches!(node, Node::Light(_) | Node::Material(_) | Node::Object(_))
-            || self.names_file(node)
-        {
-            return None;
-        }
-        let element = self.origins.element(&self.tree, node)?;
-        let name = self.origins.value(&self.tree, element, "name");
+        let place = self.origins.get(node).filter(|place| *place.kind != OBJ)?;
+        let name = self.value(place.element as usize, "name");
         Some(name.map_or("", |name| name.unescaped(&self.text)))
     }
 
     fn renaming(&self, node: Node, name: &str) -> Result<Vec<Edit>, StructureError> {
         let refused = |reason: String| Err(StructureError::Name(reason));
         let Some(old) = self.called(node) else {
-            return refused(if self.names_file(node) {
-                "an obj's name is its file: edit the field instead".to_owned()
-            } else {
-                format!("{} has no name", self.name(node))
+            return refused(match self.origins.get(node) {
+                Some(_) => "an obj's name is its file: edit the field instead".to_owned(),
+                None => format!("{} has no name", self.name(node)),
             });
         };
-        if name.trim().is_empty() {
-            return refused("a name must not be empty".to_owned());
+        match node {
+            Node::Material(_) if name != old => self.unused_material(name)?,
+            _ => not_empty(name)?,
         }
-        if matches!(node, Node::Material(_)) && name != old {
-            self.unused_material(name)?;
-        }
-        let (tree, origins) = (&self.tree, &self.origins);
-        let element = origins.element(tree, node).unwrap_or_default();
-        let mut edits = vec![match origins.value(tree, element, "name") {
-            Some(value) => self.replaced(value.value, name),
+        let element = self.element(node).unwrap_or_default();
+        let mut edits = vec![match self.value(element, "name") {
+            Some(value) => respelled(&self.text, value.value, name),
             None => Edit {
-                span: Span::at(tree.elements[element].attributes_end as usize),
+                span: Span::at(self.tree.elements[element].attributes_end as usize),
                 text: format!(" name=\"{}\"", escaped(name, '"')),
             },
         }];
         if let Node::Material(material) = node {
-            let users = origins.object_materials.iter().enumerate();
-            let users = users.filter(|(_, of)| **of == Some(material));
-            let values = users.filter_map(|(user, _)| {
-                let element = origins.element(tree, Node::Object(user))?;
-                origins.value(tree, element, "material")
-            });
-            edits.extend(values.map(|value| self.replaced(value.value, name)));
+            let users = self.origins.objects().iter();
+            let users = users.filter(|place| place.material == Some(material));
+            let values = users.filter_map(|place| self.value(place.element as usize, "material"));
+            edits.extend(values.map(|value| respelled(&self.text, value.value, name)));
         }
         Edit::sort(&mut edits);
         Ok(edits)
@@ -168,16 +150,24 @@ impl StructureEdits for Source {
             return Err(uncreatable(category));
         }
         self.unused_material(name)?;
-        let text = add::material("blinn", name).join(line_ending(&self.text));
+        let text = add::material("blinn", name).replace('\n', line_ending(&self.text));
         self.insertion(&text, Node::View)
     }
 
     fn kinds(&self, node: Node) -> Vec<&'static str> {
-        add::kinds(node)
+        let class = node.category().and_then(|(category, _)| class_of(category));
+        let kinds = class.map_or(&[][..], |class| class.kinds).iter();
+        // A mesh is named by its file, which nothing else has.
+        let kinds = kinds.filter(|kind| ***kind != OBJ);
+        kinds.map(|kind| kind.word).collect()
     }
 
     fn retyping(&self, node: Node, kind: &str) -> Result<Vec<Edit>, StructureError> {
-        add::retyping(self, node, kind)
+        let fields = self.fields(node);
+        let field = fields.iter().find(|placed| placed.field.key == "type");
+        let fixed = || StructureError::Inexpressible(format!("{} has no type", self.name(node)));
+        let field = field.ok_or_else(fixed)?;
+        Ok(field.edits(self, &[(0, kind.to_owned())]))
     }
 
     fn pose(&self, node: Node) -> Option<Pose> {
@@ -211,14 +201,12 @@ impl StructureEdits for Source {
 impl Source {
     /// Fails if no material can have a name because it is empty or in use.
     fn unused_material(&self, name: &str) -> Result<(), StructureError> {
-        let refused = |reason: String| Err(StructureError::Name(reason));
-        if name.trim().is_empty() {
-            return refused("a name must not be empty".to_owned());
-        }
-        let materials = self.origins.materials.iter();
+        not_empty(name)?;
+        let materials = self.origins.of(Category::Material).iter();
         let mut named = materials.filter_map(|place| place.name.as_deref());
         if named.any(|known| known == name) {
-            return refused(format!("a material named {name} already exists"));
+            let reason = format!("a material named {name} already exists");
+            return Err(StructureError::Name(reason));
         }
         Ok(())
     }
@@ -226,22 +214,15 @@ impl Source {
     /// The element after which copies stand: that of `after` if they are of its kind, otherwise the
     /// scene's last child of their kind, or its last child. `None` in an empty scene.
     fn anchor(&self, copies: &Copies, after: Node, scene: usize) -> Option<usize> {
-        let (tree, origins) = (&self.tree, &self.origins);
         let is_same = |element: &usize| {
-            let kind = match origins.node_of(*element) {
-                Some(Node::Light(_)) => "light",
-                Some(Node::Material(_)) => "material",
-                Some(Node::Object(_)) => "object",
-                _ => return false,
-            };
-            let node = origins.node_of(*element);
             // Parameters belong to the node that they are in.
-            let is_own = node.and_then(|node| origins.element(tree, node)) == Some(*element);
-            is_own && copies.is_all(kind)
+            let node = self.origins.own_node(*element);
+            let category = node.and_then(Node::category);
+            category.is_some_and(|(category, _)| copies.are_all(category))
         };
-        let own = origins.element(tree, after).filter(is_same);
-        own.or_else(|| tree.children(scene).filter(is_same).last())
-            .or_else(|| tree.children(scene).last())
+        let own = self.element(after).filter(is_same);
+        own.or_else(|| self.tree.children(scene).filter(is_same).last())
+            .or_else(|| self.tree.children(scene).last())
     }
 
     /// The edit that writes copies after an element, with its indentation, and after a blank line if
@@ -252,13 +233,8 @@ impl Source {
         let line = line_from(text, own.start());
         let indent = &text[line..own.start()];
         let indent = if indent.trim().is_empty() { indent } else { "" };
-        let before = line_before(text, line);
-        let gap = before.filter(|line| line.of(text).trim().is_empty());
-        let gap = gap.map_or("", |_| ending);
-        Edit {
-            span: Span::at(self.with_comment_behind(own)),
-            text: format!("{ending}{gap}{}", copies.indented(indent, ending)),
-        }
+        let block = Span::new(line, self.with_comment_behind(own));
+        lines_after(text, block, &copies.indented(indent, ending))
     }
 
     /// The edit that writes copies into an element without children.
@@ -281,35 +257,26 @@ impl Source {
         }
     }
 
-    fn replaced(&self, value: Span, name: &str) -> Edit {
-        Edit {
-            span: value,
-            text: escaped(name, quote(&self.text, value)).into_owned(),
-        }
-    }
-
     /// The objects outside these nodes that name one of these materials.
-    fn users_outside(&self, nodes: &[Node]) -> Vec<usize> {
-        let nodes: HashSet<_> = nodes.iter().copied().collect();
-        let named = self.origins.object_materials.iter().enumerate();
-        let users = named.filter_map(|(object, material)| {
-            let is_user = nodes.contains(&Node::Material((*material)?));
-            is_user.then_some(object)
-        });
+    fn users_outside(&self, nodes: &[Node]) -> Vec<&Place> {
+        let materials: HashSet<_> = nodes.iter().copied().collect();
         let elements: Vec<_> = nodes.iter().map(|&node| self.span(node)).collect();
-        let is_in = |inner: Span| {
+        let is_inside = |place: &Place| {
+            let own = self.tree.elements.get(place.element as usize);
+            let inner = own.map_or_else(|| Span::at(0), |own| own.whole);
             let holds = |outer: &Span| outer.start() <= inner.start() && inner.end() <= outer.end();
             elements.iter().any(holds)
         };
-        users
-            .filter(|&user| !is_in(self.span(Node::Object(user))))
-            .collect()
+        let users = self.origins.objects().iter().filter(|place| {
+            let material = place.material.map(Node::Material);
+            material.is_some_and(|material| materials.contains(&material)) && !is_inside(place)
+        });
+        users.collect()
     }
 
     /// The edit that removes an object's reference to its material.
-    fn without_material(&self, object: usize) -> Option<Edit> {
-        let element = self.origins.element(&self.tree, Node::Object(object))?;
-        let attribute = self.origins.value(&self.tree, element, "material")?;
+    fn without_material(&self, object: &Place) -> Option<Edit> {
+        let attribute = self.value(object.element as usize, "material")?;
         let before = self.text[..attribute.name.start()].trim_end().len();
         Some(Edit {
             span: Span::new(before, attribute.value.end() + 1),
@@ -317,54 +284,15 @@ impl Source {
         })
     }
 
-    /// The names of lights, materials and objects in use.
-    fn names(&self) -> [HashSet<&str>; 3] {
-        let origins = &self.origins;
-        let lights = origins.lights.iter();
-        let materials = origins.materials.iter();
-        let objects = origins.objects.iter();
-        [
-            lights.filter_map(|at| at.name.as_deref()).collect(),
-            materials.filter_map(|at| at.name.as_deref()).collect(),
-            objects.filter_map(|at| at.name.as_deref()).collect(),
-        ]
-    }
-
     /// The neighbour of the same kind in the same element.
     fn sibling(&self, node: Node, neighbour: Neighbour) -> Option<Node> {
-        let (tree, origins) = (&self.tree, &self.origins);
-        let element = origins.element(tree, node)?;
-        let parent = tree.elements.get(element)?.parent? as usize;
-        let is_alike =
-            |&other: &Node| std::mem::discriminant(&other) == std::mem::discriminant(&node);
-        let mut before = None;
-        let mut is_found = false;
-        for child in tree.children(parent) {
-            // Parameters of the node's own kind belong to other nodes.
-            let Some(other) = origins.node_of(child).filter(is_alike) else {
-                continue;
-            };
-            if origins.element(tree, other) != Some(child) {
-                continue;
-            }
-            match neighbour {
-                Neighbour::Previous if child == element => return before,
-                Neighbour::Next if is_found => return Some(other),
-                _ => {}
-            }
-            is_found |= child == element;
-            before = Some(other);
-        }
-        None
-    }
-
-    /// Whether a node's name is that of a file.
-    fn names_file(&self, node: Node) -> bool {
-        let Node::Object(index) = node else {
-            return false;
-        };
-        let object = self.origins.objects.get(index);
-        object.is_some_and(|object| object.kind == ObjectKind::Obj)
+        let element = self.tree.elements.get(self.element(node)?)?;
+        let children = self.tree.children(element.parent? as usize);
+        let alike = children.filter_map(|child| self.origins.own_node(child));
+        let alike: Vec<_> = alike.filter(|&other| is_alike(other, node)).collect();
+        let own = alike.iter().position(|&other| other == node)?;
+        let pair = pair(own, alike.len(), neighbour)?.map(|at| alike[at]);
+        pair.into_iter().find(|&other| other != node)
     }
 
     /// The end of an element, with the comment behind it on its last line.
@@ -381,30 +309,23 @@ impl Source {
     /// Whether a comment above an element is a heading of several: one of the same kind follows on
     /// the next line.
     fn has_heading(&self, node: Node, element: usize) -> bool {
-        let (tree, origins) = (&self.tree, &self.origins);
-        let own = &tree.elements[element];
+        let own = &self.tree.elements[element];
         let after = own.end as usize;
-        let Some(next) = tree.elements.get(after) else {
+        let Some(next) = self.tree.elements.get(after) else {
             return false;
         };
-        let is_alike = |other: Node| {
-            std::mem::discriminant(&other) == std::mem::discriminant(&node)
-                && origins.element(tree, other) == Some(after)
-        };
+        let other = self.origins.own_node(after);
+        let is_next = other.is_some_and(|other| is_alike(other, node));
         let end = Span::at(self.with_comment_behind(own.whole));
-        next.parent == own.parent
-            && origins.node_of(after).is_some_and(is_alike)
-            && follows(&self.text, end, next.whole)
+        next.parent == own.parent && is_next && follows(&self.text, end, next.whole)
     }
 
     /// The text that moves with a node.
     fn block(&self, node: Node) -> Result<Block, StructureError> {
         let (text, tree) = (&*self.text, &self.tree);
         let fixed = || StructureError::Fixed(self.name(node));
-        if !matches!(node, Node::Light(_) | Node::Material(_) | Node::Object(_)) {
-            return Err(fixed());
-        }
-        let element = self.origins.element(tree, node).ok_or_else(fixed)?;
+        let place = self.origins.get(node).ok_or_else(fixed)?;
+        let element = place.element as usize;
         let own = tree.elements.get(element).ok_or_else(fixed)?.whole;
         let is_blank = |from: usize, to: usize| text[from..to].trim().is_empty();
         let end = self.with_comment_behind(own);
@@ -427,4 +348,17 @@ impl Source {
         let own = Span::new(own.start(), end);
         Ok(Block::Lines(lines(text, own, comment_above)))
     }
+}
+
+/// Whether two nodes are of the same kind.
+fn is_alike(one: Node, other: Node) -> bool {
+    std::mem::discriminant(&one) == std::mem::discriminant(&other)
+}
+
+/// Fails for a name without visible characters.
+fn not_empty(name: &str) -> Result<(), StructureError> {
+    if name.trim().is_empty() {
+        return Err(StructureError::Name("a name must not be empty".to_owned()));
+    }
+    Ok(())
 }

@@ -5,82 +5,57 @@ use crate::camera::{CameraSpans, check};
 use crate::rendering::{Part, RenderPlace};
 use crate::report::quoted;
 use crate::xml::origins::fields::of_gamma;
-use crate::xml::table::{
-    BACKGROUND, ENVIRONMENT, Parameter,
-    camera::{FOCAL_DISTANCE, FOV, HEIGHT, LENS_RADIUS, POSITION, TARGET, UP, WIDTH},
-};
-use crate::xml::view::View;
-use scene::{Camera, Focus, Size, Transfer};
+use crate::xml::parameter::Parameter;
+use crate::xml::schema::{BACKGROUND, CAMERA, ENVIRONMENT};
+use crate::xml::view;
+use scene::{Camera, Transfer};
 use text::{Diagnostic, Span, parse_number, without_suffix};
 
 impl Lowering<'_> {
-    /// The camera of its element, with defaults for missing parts.
-    pub(super) fn camera(&mut self) -> Camera {
+    /// The camera of its element, with defaults for missing parts; `root` is the place of messages
+    /// about a missing one.
+    pub(super) fn camera(&mut self, root: Span) -> Camera {
         let camera = self.origins.camera;
-        let root = self
-            .origins
-            .root
-            .map_or_else(Span::default, |root| self.place(root));
         let whole = camera.map_or(root, |camera| self.place(camera));
-        if camera.is_none() {
-            let hint = "the default is at the origin and looks along −z";
-            self.warn(
-                root,
-                || "no `camera` element".to_owned(),
-                "`<camera>` in `<xml>`",
-                hint,
-            );
-        }
         if let Some(camera) = camera {
             self.gamma(camera);
+        } else {
+            let message = || "no `camera` element".to_owned();
+            let hint = "the default is at the origin and looks along −z";
+            self.warn(root, message, "`<camera>` in `<xml>`", hint);
         }
-        let vectors = [&POSITION, &TARGET, &UP];
+        let [vectors @ .., _, _, _, _, _] = *CAMERA;
+        let [_, _, _, numbers @ ..] = *CAMERA;
         self.origins.factors = vectors.map(|parameter| {
-            let element = self.element_of(camera, parameter)?;
-            let attribute = self.origins.value(self.tree, element, "value")?;
+            let attribute = self.value(self.element_of(camera, parameter)?, "value")?;
             // Reports of malformed numbers are made where they are read.
             let word = attribute.unescaped(self.text).trim();
             Some(parse_number(without_suffix(word).unwrap_or(word)).unwrap_or(1.0))
         });
-        let [position, target, up] = vectors.map(|parameter| self.vector(camera, parameter));
-        let numbers = [&FOV, &FOCAL_DISTANCE, &LENS_RADIUS, &WIDTH, &HEIGHT];
-        let [fov, distance, lens_radius, width, height] =
-            numbers.map(|parameter| self.number(camera, parameter));
-        let view = View {
-            position,
-            target,
-            up,
-            fov,
-            focus: Focus {
-                distance,
-                lens_radius,
-            },
-            size: Size {
-                width: width as u32,
-                height: height as u32,
-            },
-        };
         let place = |parameter: &'static Parameter| {
             let element = self.element_of(camera, parameter);
             element.map_or(whole, |element| self.attributes_span(element))
         };
+        let [eye, target, up] = vectors.map(place);
         let places = CameraSpans {
-            eye: place(&POSITION),
-            target: place(&TARGET),
-            up: place(&UP),
+            eye,
+            target,
+            up,
             whole,
             remedy: "give its position and target: <position/>, <target/>",
         };
+        let vectors = vectors.map(|parameter| self.vector(camera, parameter));
+        let numbers = numbers.map(|parameter| self.number(camera, parameter));
+        let seen = view::camera_of(vectors, numbers);
         // Malformed numbers were already reported.
-        let seen = view.camera();
-        if !(position.is_nan() || target.is_nan() || up.is_nan()) {
+        if !vectors.iter().any(|vector| vector.is_nan()) {
             check(&seen, &places, &mut self.report);
         }
         seen
     }
 
     fn gamma(&mut self, camera: usize) {
-        let Some(attribute) = self.origins.value(self.tree, camera, "gamma") else {
+        let Some(attribute) = self.value(camera, "gamma") else {
             return;
         };
         let word = attribute.unescaped(self.text);
@@ -88,12 +63,8 @@ impl Lowering<'_> {
             self.origins.transfer = Transfer::Srgb;
         } else if !word.eq_ignore_ascii_case("linear") {
             let message = || format!("camera gamma: unknown value {}", quoted(word));
-            self.warn(
-                attribute.value,
-                message,
-                "sRGB or linear",
-                "it is treated as linear",
-            );
+            let hint = "it is treated as linear";
+            self.warn(attribute.value, message, "sRGB or linear", hint);
         }
     }
 
@@ -120,25 +91,14 @@ impl Lowering<'_> {
         self.origins.settings = settings;
     }
 
-    /// Reads background and environment.
-    pub(super) fn surroundings(&mut self) {
-        let scene = self.origins.scene;
-        let Some(scene) = scene else {
-            let root = self
-                .origins
-                .root
-                .map_or_else(Span::default, |root| self.place(root));
-            self.report.warning(|| {
-                let message = "no `scene` element";
-                Diagnostic::warning(root, message, "`<scene>` in `<xml>`")
-            });
+    /// Reads background and environment; `root` is the place of messages about a missing scene.
+    pub(super) fn surroundings(&mut self, root: Span) {
+        let Some(scene) = self.origins.scene else {
+            let warning = Diagnostic::warning(root, "no `scene` element", "`<scene>` in `<xml>`");
+            self.report.warning(|| warning);
             return;
         };
-        if let Some(element) = self.element_of(Some(scene), &BACKGROUND) {
-            self.setting.background = self.tinted_in(element, &BACKGROUND);
-        }
-        if let Some(element) = self.element_of(Some(scene), &ENVIRONMENT) {
-            self.setting.environment = self.tinted_in(element, &ENVIRONMENT);
-        }
+        self.setting.background = self.tinted(scene, &BACKGROUND);
+        self.setting.environment = self.tinted(scene, &ENVIRONMENT);
     }
 }

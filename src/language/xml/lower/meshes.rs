@@ -6,9 +6,8 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::Lowering;
 use super::surfaces::lit;
-use crate::node::Node;
 use crate::schema::SIZES;
-use crate::xml::origins::{NamedPlace, What};
+use crate::xml::origins::What;
 use geometry::{Instance, Shape};
 use obj::{Edges, Finding, Map, Model};
 use scene::{
@@ -26,10 +25,9 @@ const LEFT_OUT: &str = "the object is left out";
 /// The attribute that names a mesh.
 #[derive(Clone, Copy)]
 struct Named<'a> {
-    /// Index of the object.
-    object: usize,
     element: usize,
     attribute: usize,
+    span: Span,
     name: &'a str,
 }
 
@@ -37,12 +35,11 @@ impl<'a> Lowering<'a> {
     /// The shape of an object whose mesh has been read, and the material of the parts without one.
     pub(super) fn mesh(
         &mut self,
-        object: usize,
+        element: usize,
         frame: Option<DAffine3>,
         material: Option<usize>,
     ) -> Option<(Shape, usize)> {
-        let element = self.origins.objects[object].element as usize;
-        let named = self.named_mesh(object, element)?;
+        let named = self.named_mesh(element)?;
         let model = self.model(named)?;
         // An object's own material counts even if it is not defined.
         let tags = match self.word(element, "material") {
@@ -64,27 +61,23 @@ impl<'a> Lowering<'a> {
         Some((shape, material.unwrap_or_else(|| self.white())))
     }
 
-    fn named_mesh(&mut self, object: usize, element: usize) -> Option<Named<'a>> {
-        let attribute = self.origins.attribute(self.tree, element, "name");
-        let name = attribute.map_or("", |at| self.tree.attributes[at].unescaped(self.text));
-        if let Some(attribute) = attribute.filter(|_| !name.is_empty()) {
-            self.origins.files.push(NamedPlace {
-                element,
-                attribute,
-                what: What::Mesh,
-            });
-            return Some(Named {
-                object,
-                element,
-                attribute,
-                name,
-            });
-        }
-        let message = format!("{}: the name is missing", self.display_name(element));
-        let value = attribute.map(|attribute| self.tree.attributes[attribute].value);
-        let place = value.unwrap_or_else(|| self.place(element));
-        self.error(place, || message, EXPECTED);
-        None
+    fn named_mesh(&mut self, element: usize) -> Option<Named<'a>> {
+        let attribute = self.tree.attribute_at(self.text, element, "name");
+        let value = attribute.map(|at| &self.tree.attributes[at]);
+        let name = value.map_or("", |value| value.unescaped(self.text));
+        let span = value.map_or_else(|| self.place(element), |value| value.value);
+        let Some(attribute) = attribute.filter(|_| !name.is_empty()) else {
+            let message = format!("{}: the name is missing", self.display_name(element));
+            self.error(span, || message, EXPECTED);
+            return None;
+        };
+        self.origins.note_file(element, attribute, What::Mesh);
+        Some(Named {
+            element,
+            attribute,
+            span,
+            name,
+        })
     }
 
     /// The named mesh, if it has been read; reports its problems. An object without one is left out.
@@ -97,14 +90,13 @@ impl<'a> Lowering<'a> {
                 Some(model)
             }
             Err(NoMesh::Unread { reason, hint }) => {
-                let span = self.tree.attributes[named.attribute].value;
-                let object = self.origins.name(Node::Object(named.object));
+                let object = self.display_name(named.element);
                 let hint = match hint {
                     Some(hint) => format!("{LEFT_OUT}; {hint}"),
                     None => LEFT_OUT.to_owned(),
                 };
                 let message = || format!("{object}: {reason}");
-                self.warn(span, message, EXPECTED, &hint);
+                self.warn(named.span, message, EXPECTED, &hint);
                 None
             }
             Err(NoMesh::Malformed(findings)) => {
@@ -112,11 +104,10 @@ impl<'a> Lowering<'a> {
                 if self.reported_meshes.insert(named.name) {
                     self.warn_of(named, lines);
                 }
-                let object = self.origins.name(Node::Object(named.object));
-                let span = self.tree.attributes[named.attribute].value;
+                let object = self.display_name(named.element);
                 self.report.warning(|| Diagnostic {
                     message: format!("{object}: {}", reason.message),
-                    ..cited(span, named.name, reason).with_hint(LEFT_OUT)
+                    ..cited(named.span, named.name, reason).with_hint(LEFT_OUT)
                 });
                 None
             }
@@ -125,9 +116,9 @@ impl<'a> Lowering<'a> {
 
     /// Warns of problems of a mesh and its libraries, at their own places.
     fn warn_of(&mut self, named: Named<'a>, findings: &[Finding]) {
-        let span = self.tree.attributes[named.attribute].value;
         for finding in findings {
-            self.report.warning(|| cited(span, named.name, finding));
+            self.report
+                .warning(|| cited(named.span, named.name, finding));
         }
     }
 
@@ -198,11 +189,8 @@ impl<'a> Lowering<'a> {
 
     /// The texture of a picture named by a material of a mesh.
     fn map(&mut self, named: Named<'a>, keyword: &'static str, path: String, map: &Map) -> u32 {
-        self.origins.files.push(NamedPlace {
-            element: named.element,
-            attribute: named.attribute,
-            what: What::Map(keyword, path.clone().into()),
-        });
+        let what = What::Map(keyword, path.clone().into());
+        self.origins.note_file(named.element, named.attribute, what);
         let [scale, offset] =
             [(map.scale, 1.0), (map.offset, 0.0)].map(|([u, v], w)| DVec3::new(u, v, w));
         self.textures.push(Texture {

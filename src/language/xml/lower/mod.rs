@@ -17,6 +17,7 @@ use std::collections::{HashMap, HashSet};
 use super::origins::Origins;
 use super::tree::Tree;
 use crate::Lowered;
+use crate::schema::Category;
 use scene::{Light, Material, Meshes, Object, Rgb, Scene, Setting, Texture};
 use text::{Diagnostic, Findings, Span};
 
@@ -75,14 +76,14 @@ impl Lowering<'_> {
     /// Reads everything; `None` if there is nothing to read.
     fn read(&mut self) -> Option<Scene> {
         self.find_roles();
-        self.origins.root?;
-        let camera = self.camera();
+        let root = self.place(self.origins.root?);
+        let camera = self.camera(root);
         self.rendering();
-        self.surroundings();
-        for index in 0..self.origins.lights.len() {
+        self.surroundings(root);
+        for index in 0..self.origins.of(Category::Light).len() {
             self.light(index);
         }
-        for index in 0..self.origins.materials.len() {
+        for index in 0..self.origins.of(Category::Material).len() {
             self.material(index);
         }
         self.place_objects();
@@ -98,14 +99,8 @@ impl Lowering<'_> {
     }
 
     fn warn(&mut self, span: Span, message: impl FnOnce() -> String, expected: &str, hint: &str) {
-        self.report.warning(|| {
-            let warning = Diagnostic::warning(span, message(), expected);
-            if hint.is_empty() {
-                warning
-            } else {
-                warning.with_hint(hint)
-            }
-        });
+        self.report
+            .warning(|| Diagnostic::warning(span, message(), expected).with_hint(hint));
     }
 
     fn error(&mut self, span: Span, message: impl FnOnce() -> String, expected: &str) {

@@ -3,12 +3,14 @@
 use glam::{DAffine3, DVec3};
 
 use super::Lowering;
-use crate::form::{rotation, scaling};
+use crate::form::scaling;
+use crate::node::Node;
 use crate::report::quoted;
 use crate::schema::{Range, SIZES};
 use crate::xml::origins::Role;
-use crate::xml::table::ObjectKind;
-use geometry::{Affine, Ellipsoid, Plane, Shape, Solid, Sphere, normalise};
+use crate::xml::parameter::Type;
+use crate::xml::schema::{GROUP, OBJ, PLANE, SPHERE};
+use geometry::{Affine, Ellipsoid, Plane, Shape, Solid, Sphere};
 use scene::{Material, Object, Rgb};
 use text::Diagnostic;
 
@@ -18,12 +20,14 @@ type Frame = Option<DAffine3>;
 impl Lowering<'_> {
     /// Lowers all objects, each before those in it.
     pub(super) fn place_objects(&mut self) {
-        let mut frames: Vec<Frame> = Vec::with_capacity(self.origins.objects.len());
-        for index in 0..self.origins.objects.len() {
-            let element = self.origins.objects[index].element as usize;
+        let count = self.origins.objects().len();
+        let mut frames: Vec<Frame> = Vec::with_capacity(count);
+        for index in 0..count {
+            let place = &self.origins.objects()[index];
+            let (kind, element) = (place.kind, place.element as usize);
             let parent = self.tree.elements[element].parent;
             let outer = match parent.map(|parent| self.origins.roles[parent as usize]) {
-                Some(Role::Object(outer)) => frames[outer as usize],
+                Some(Role::Node(Node::Object(outer))) => frames[outer],
                 _ => Some(DAffine3::IDENTITY),
             };
             let errors = self.report.errors();
@@ -32,13 +36,14 @@ impl Lowering<'_> {
             let frame = outer.filter(|_| is_valid).map(|outer| outer * own);
             frames.push(frame);
             let material = self.material_of(element);
-            self.origins.object_materials.push(material);
-            let shaped = match self.origins.objects[index].kind {
-                ObjectKind::Group => None,
-                ObjectKind::Obj => self.mesh(index, frame, material),
-                kind => frame
-                    .and_then(|frame| self.shape(kind, element, frame))
-                    .map(|shape| (shape, material.unwrap_or_else(|| self.white()))),
+            self.origins.set_material(index, material);
+            let shaped = if *kind == GROUP {
+                None
+            } else if *kind == OBJ {
+                self.mesh(element, frame, material)
+            } else {
+                let shape = frame.and_then(|frame| self.shape(kind, element, frame));
+                shape.map(|shape| (shape, material.unwrap_or_else(|| self.white())))
             };
             if let Some((shape, material)) = shaped {
                 self.origins.drawn.push(index);
@@ -58,20 +63,16 @@ impl Lowering<'_> {
             let Role::Transform(parameter) = self.origins.roles[child] else {
                 continue;
             };
-            let one = match parameter.element {
-                "scale" => {
-                    let scale = self.vector_in(child, parameter);
-                    if scale.to_array().contains(&0.0) {
-                        self.flat(child);
-                    }
-                    DAffine3::from_scale(scale)
-                }
-                "rotate" => {
-                    let (axis, angle) = self.rotation_in(child, parameter);
-                    self.rotation(child, axis, angle)
-                }
-                _ => DAffine3::from_translation(self.vector_in(child, parameter)),
-            };
+            let vector = self.vector_in(Some(child), parameter);
+            let angle = self.angle_in(child, parameter);
+            if parameter.element == "scale" && vector.to_array().contains(&0.0) {
+                self.flat(child);
+            } else if parameter.element == "rotate" && vector == DVec3::ZERO {
+                let (name, span) = (self.display_name(child), self.attributes_span(child));
+                let message = || format!("{name}: the axis is zero");
+                self.warn(span, message, "an axis: x, y, z", "the rotation is ignored");
+            }
+            let one = parameter.matrix(vector, angle);
             all = Some(all.map_or(one, |before| one * before));
         }
         all
@@ -86,19 +87,6 @@ impl Lowering<'_> {
         });
     }
 
-    /// A right-handed rotation about an axis, in degrees.
-    fn rotation(&mut self, element: usize, axis: DVec3, angle: f64) -> DAffine3 {
-        let Some(axis) = normalise(axis) else {
-            if axis == DVec3::ZERO {
-                let (name, span) = (self.display_name(element), self.attributes_span(element));
-                let message = || format!("{name}: the axis is zero");
-                self.warn(span, message, "an axis: x, y, z", "the rotation is ignored");
-            }
-            return DAffine3::IDENTITY;
-        };
-        DAffine3::from_mat3(rotation(axis, angle))
-    }
-
     /// The index of the default material.
     pub(super) fn white(&mut self) -> usize {
         *self.white.get_or_insert_with(|| {
@@ -108,9 +96,9 @@ impl Lowering<'_> {
     }
 
     /// The shape of a sphere or plane in its frame; `None`, with an error, if it has no volume.
-    fn shape(&mut self, kind: ObjectKind, element: usize, frame: DAffine3) -> Option<Shape> {
+    fn shape(&mut self, kind: &Type, element: usize, frame: DAffine3) -> Option<Shape> {
         let columns = [frame.x_axis, frame.y_axis, frame.z_axis];
-        if kind == ObjectKind::Sphere
+        if *kind == SPHERE
             && let Some(radius) = scaling(columns)
             && Range::Size.contains(radius)
             && frame.translation.is_finite()
@@ -121,9 +109,10 @@ impl Lowering<'_> {
             })));
         }
         let affine = self.affine(element, frame)?;
-        Some(match kind {
-            ObjectKind::Plane => Shape::Plane(Box::new(Plane(affine))),
-            _ => Shape::Solid(Solid::Ellipsoid(Box::new(Ellipsoid(affine)))),
+        Some(if *kind == PLANE {
+            Shape::Plane(Box::new(Plane(affine)))
+        } else {
+            Shape::Solid(Solid::Ellipsoid(Box::new(Ellipsoid(affine))))
         })
     }
 
@@ -166,12 +155,9 @@ impl Lowering<'_> {
     }
 
     pub(super) fn no_volume(&mut self, element: usize) {
-        let name = self.display_name(element);
-        self.error(
-            self.tree.elements[element].name,
-            || format!("{name}: its transforms flatten it or are too large"),
-            "invertible transforms",
-        );
+        let (name, span) = (self.display_name(element), self.place(element));
+        let message = || format!("{name}: its transforms flatten it or are too large");
+        self.error(span, message, "invertible transforms");
     }
 
     /// The index of an object's material.
@@ -179,18 +165,10 @@ impl Lowering<'_> {
         let name = self.word(element, "material")?;
         let found = self.named.get(name).copied();
         if found.is_none() {
-            let span = self
-                .origins
-                .value(self.tree, element, "material")
-                .map(|at| at.value);
+            let span = self.value(element, "material").map(|at| at.value);
             let message = || format!("material: no material is named {}", quoted(name));
-            let hint = "the object is unlit white";
-            self.warn(
-                span.unwrap_or_default(),
-                message,
-                "the name of a material",
-                hint,
-            );
+            let (expected, hint) = ("the name of a material", "the object is unlit white");
+            self.warn(span.unwrap_or_default(), message, expected, hint);
         }
         found
     }

@@ -1,13 +1,15 @@
-//! The roles of elements and attributes, by their names and parents.
+//! The roles of elements, by their names and parents, and what is unknown.
 
 use std::collections::HashMap;
 
 use super::Lowering;
+use crate::node::Node;
 use crate::report::quoted;
-use crate::xml::origins::{NO_WORD, Place, Role, WORDS};
-use crate::xml::table::{
-    Attributes, BACKGROUND, CHECKER, ENVIRONMENT, LightKind, MaterialKind, ObjectKind, Parameter,
-    TRANSFORMS, Texturing, camera,
+use crate::schema::Category;
+use crate::xml::origins::{Place, Role};
+use crate::xml::parameter::{Attributes, Class, Parameter, Type};
+use crate::xml::schema::{
+    BACKGROUND, CAMERA, CHECKER, CLASSES, ENVIRONMENT, GAMMA, TRANSFORMS, class_of,
 };
 use text::{Diagnostic, Span, nearest_word, visible};
 
@@ -15,22 +17,14 @@ use text::{Diagnostic, Span, nearest_word, visible};
 const IN_ROOT: [&str; 3] = ["scene", "camera", "render"];
 const IN_SCENE: [&str; 5] = ["object", "material", "light", "background", "environment"];
 
+/// What becomes of an element or attribute that is not known.
+const SKIPPED: &str = "it is skipped";
+
 impl<'a> Lowering<'a> {
-    /// Gives every element its role and every attribute its word. Unknown elements are skipped with
-    /// a warning, and their content without.
+    /// Gives every element its role. Unknown elements are skipped with a warning, and their content
+    /// without.
     pub(super) fn find_roles(&mut self) {
         let tree = self.tree;
-        self.origins.words = tree
-            .attributes
-            .iter()
-            .map(|attribute| {
-                let name = attribute.name.of(self.text);
-                WORDS
-                    .iter()
-                    .position(|word| *word == name)
-                    .map_or(NO_WORD, |at| at as u8)
-            })
-            .collect();
         let mut parameters: HashMap<(u32, &'static str), usize> = HashMap::new();
         for element in 0..tree.elements.len() {
             let parent = tree.elements[element].parent;
@@ -38,12 +32,12 @@ impl<'a> Lowering<'a> {
                 None => self.root(element),
                 Some(parent) => self.child(element, parent as usize),
             };
-            let owner = match (role, parent) {
+            let roles = &self.origins.roles;
+            let is_node =
+                |&parent: &u32| !matches!(roles[parent as usize], Role::Scene | Role::Root);
+            let owner = match (role, parent.filter(is_node)) {
                 (Role::Parameter(_) | Role::Transform(_) | Role::Skipped, Some(parent)) => {
-                    match self.origins.roles[parent as usize] {
-                        Role::Scene | Role::Root => element as u32,
-                        _ => self.origins.owners[parent as usize],
-                    }
+                    self.origins.owners[parent as usize]
                 }
                 _ => element as u32,
             };
@@ -86,19 +80,20 @@ impl<'a> Lowering<'a> {
         let is = |known: &str| name.eq_ignore_ascii_case(known);
         let among =
             |all: &[&'static Parameter]| all.iter().copied().find(|known| is(known.element));
-        let found = match self.origins.roles[parent] {
-            Role::Skipped => return Role::Skipped,
-            Role::Root if is("scene") => {
-                return self.once(element, Role::Scene);
-            }
-            Role::Root if is("camera") => return self.once(element, Role::Camera),
-            Role::Root if is("render") => return self.once(element, Role::Render),
-            Role::Scene | Role::Object(_) if is("object") => Some(self.object(element)),
-            Role::Scene if is("material") => Some(self.material_place(element)),
-            Role::Scene if is("light") => self.light_place(element).or(Some(Role::Skipped)),
-            Role::Scene if is("background") => Some(Role::Parameter(&BACKGROUND)),
-            Role::Scene if is("environment") => Some(Role::Parameter(&ENVIRONMENT)),
-            outer => among(self.parameters_in(outer))
+        let outer = self.origins.roles[parent];
+        let class = CLASSES.into_iter().find(|class| match outer {
+            Role::Scene => is(class.category.word()),
+            Role::Node(Node::Object(_)) => class.category == Category::Object && is("object"),
+            _ => false,
+        });
+        let found = match (outer, class) {
+            (Role::Skipped, _) => return Role::Skipped,
+            (_, Some(class)) => Some(self.thing(element, class, outer)),
+            (Role::Root, _) if is("scene") => Some(self.once(element, Role::Scene)),
+            (Role::Root, _) if is("camera") => Some(self.once(element, Role::Node(Node::View))),
+            (Role::Root, _) if is("render") => Some(self.once(element, Role::Node(Node::Render))),
+            (Role::Scene, _) => among(&[&BACKGROUND, &ENVIRONMENT]).map(Role::Parameter),
+            _ => among(self.parameters_in(outer))
                 .map(Role::Parameter)
                 .or_else(|| among(transforms_in(outer)).map(Role::Transform)),
         };
@@ -112,7 +107,7 @@ impl<'a> Lowering<'a> {
     fn once(&mut self, element: usize, role: Role) -> Role {
         let place = match role {
             Role::Scene => &mut self.origins.scene,
-            Role::Render => &mut self.origins.render,
+            Role::Node(Node::Render) => &mut self.origins.render,
             _ => &mut self.origins.camera,
         };
         if place.is_none() {
@@ -121,116 +116,62 @@ impl<'a> Lowering<'a> {
         }
         let name = quoted(self.name(element));
         let message = || format!("{name}: already given");
-        self.warn(
-            self.place(element),
-            message,
-            "only one",
-            "this one is skipped",
-        );
+        let hint = "this one is skipped";
+        self.warn(self.place(element), message, "only one", hint);
         Role::Skipped
     }
 
-    fn object(&mut self, element: usize) -> Role {
-        let kind = self.kind(
-            element,
-            ObjectKind::of,
-            ObjectKind::TYPES,
-            "it is treated as a group",
-        );
-        let depth = match self.tree.elements[element].parent {
-            Some(parent) => match self.origins.roles[parent as usize] {
-                Role::Object(outer) => self.origins.objects[outer as usize].depth + 1,
-                _ => 0,
-            },
-            None => 0,
+    /// A light, a material or an object.
+    fn thing(&mut self, element: usize, class: &Class, outer: Role) -> Role {
+        let Some(kind) = self.kind(element, class) else {
+            return Role::Skipped;
         };
-        let index = self.origins.objects.len() as u32;
-        let place = self.place_of(element, kind.unwrap_or(ObjectKind::Group), depth);
-        self.origins.objects.push(place);
-        Role::Object(index)
-    }
-
-    fn material_place(&mut self, element: usize) -> Role {
-        let kind = self.kind(
-            element,
-            MaterialKind::of,
-            MaterialKind::TYPES,
-            "it is treated as blinn",
-        );
-        let kind = kind.unwrap_or(MaterialKind::Blinn);
-        let index = self.origins.materials.len();
+        let depth = match outer {
+            Role::Node(group) => self.origins.get(group).map_or(0, |group| group.depth + 1),
+            _ => 0,
+        };
         let name = self.word(element, "name");
-        let place = self.place_of(element, kind, 0);
-        self.origins.materials.push(place);
-        if let Some(name) = name
+        let place = Place {
+            element: element as u32,
+            depth,
+            kind,
+            name: name.map(shown),
+            material: None,
+        };
+        let node = self.origins.push(class.category, place);
+        if let (Node::Material(index), Some(name)) = (node, name)
             && let Some(before) = self.named.insert(name, index)
         {
-            let first = self.origins.materials[before].element as usize;
-            let span = self
-                .origins
-                .value(self.tree, first, "name")
-                .map(|at| at.value);
+            let first = self.origins.of(Category::Material)[before].element as usize;
+            let span = self.value(first, "name").map(|at| at.value);
             let message = || format!("{}: another material has this name", quoted(name));
             let hint = "the last one counts";
             self.warn(span.unwrap_or_default(), message, "a unique name", hint);
         }
-        Role::Material(index as u32)
+        Role::Node(node)
     }
 
-    fn light_place(&mut self, element: usize) -> Option<Role> {
-        let kind = self.kind(
-            element,
-            LightKind::of,
-            LightKind::TYPES,
-            "the light is skipped",
-        );
-        if self.origins.value(self.tree, element, "type").is_none() {
-            let expected = "type=\"ambient\", \"direct\" or \"point\"";
-            let message = || "light: no type".to_owned();
-            self.warn(
-                self.place(element),
-                message,
-                expected,
-                "the light is skipped",
-            );
-        }
-        let index = self.origins.lights.len() as u32;
-        let place = self.place_of(element, kind?, 0);
-        self.origins.lights.push(place);
-        Some(Role::Light(index))
-    }
-
-    fn place_of<Kind>(&self, element: usize, kind: Kind, depth: u32) -> Place<Kind> {
-        Place {
-            element: element as u32,
-            kind,
-            name: self.word(element, "name").map(shown),
-            depth,
-        }
-    }
-
-    /// The kind given by an element's `type`; `None` if missing or unknown.
-    fn kind<Kind>(
-        &mut self,
-        element: usize,
-        of: impl Fn(&str) -> Option<Kind>,
-        types: &'static [&'static str],
-        otherwise: &str,
-    ) -> Option<Kind> {
-        let attribute = self.origins.value(self.tree, element, "type")?;
+    /// The kind given by an element's `type`, or the usual one if that is missing or unknown.
+    fn kind(&mut self, element: usize, class: &Class) -> Option<&'static Type> {
+        let Some(attribute) = self.value(element, "type") else {
+            if class.otherwise.is_none() {
+                let expected = "type=\"ambient\", \"direct\" or \"point\"";
+                let message = || format!("{}: no type", class.category.word());
+                self.warn(self.place(element), message, expected, class.hint);
+            }
+            return class.otherwise;
+        };
         let word = attribute.unescaped(self.text);
-        let kind = of(word);
-        if kind.is_none() {
+        let mut kinds = class.kinds.iter().copied();
+        let found = kinds.find(|kind| kind.word.eq_ignore_ascii_case(word));
+        if found.is_none() {
             let name = self.name(element);
-            let nearest = nearest_word(word, types.iter().copied());
-            let hint = match nearest {
-                Some(nearest) => format!("{otherwise}; did you mean `{nearest}`?"),
-                None => otherwise.to_owned(),
-            };
+            let types: Vec<_> = class.kinds.iter().map(|kind| kind.word).collect();
+            let hint = meaning(class.hint, nearest_word(word, types.iter().copied()));
             let message = || format!("{name}: unknown type {}", quoted(word));
             self.warn(attribute.value, message, &types.join(" or "), &hint);
         }
-        kind
+        found.or(class.otherwise)
     }
 
     fn unknown(&mut self, element: usize, parent: usize) {
@@ -241,14 +182,10 @@ impl<'a> Lowering<'a> {
         let place = places.find(|(_, words)| words.contains(&self.name(element)));
         let hint = match (place, nearest) {
             (Some((place, _)), _) => format!("it is skipped; it belongs in `{place}`"),
-            (None, Some(nearest)) => format!("it is skipped; did you mean `{nearest}`?"),
             (None, None) => "it is skipped with all its content".to_owned(),
+            (None, nearest) => meaning(SKIPPED, nearest),
         };
-        let expected = if known.is_empty() {
-            "nothing".to_owned()
-        } else {
-            known.join(", ")
-        };
+        let expected = listed(&known, "nothing");
         let message = || format!("{name}: unknown in {outer}");
         self.warn(self.place(element), message, &expected, &hint);
     }
@@ -256,10 +193,9 @@ impl<'a> Lowering<'a> {
     /// The parameters of an element.
     fn parameters_in(&self, role: Role) -> &'static [&'static Parameter] {
         match role {
-            Role::Camera => camera::PARAMETERS,
-            Role::Light(index) => self.origins.lights[index as usize].kind.parameters(),
-            Role::Material(index) => self.origins.materials[index as usize].kind.parameters(),
-            Role::Parameter(of) if of.texture == Texturing::Yes => CHECKER,
+            Role::Node(Node::View) => CAMERA,
+            Role::Node(node) => self.origins.get(node).map_or(&[], |at| at.kind.parameters),
+            Role::Parameter(of) if of.may_have_texture => CHECKER,
             _ => &[],
         }
     }
@@ -272,7 +208,7 @@ impl<'a> Lowering<'a> {
         let others: &[_] = match parent {
             Role::Root => &IN_ROOT,
             Role::Scene => &IN_SCENE,
-            Role::Object(_) => &["object"],
+            Role::Node(Node::Object(_)) => &["object"],
             _ => &[],
         };
         parameters
@@ -285,44 +221,27 @@ impl<'a> Lowering<'a> {
     fn repeated(&mut self, element: usize) {
         let name = self.display_name(element);
         let message = || format!("{name}: given again below");
-        self.warn(
-            self.place(element),
-            message,
-            "each parameter once",
-            "the last one counts",
-        );
+        let hint = "the last one counts";
+        self.warn(self.place(element), message, "each parameter once", hint);
     }
 
     /// Warns of attributes that are not known here.
     fn check_attributes(&mut self, element: usize, role: Role) {
         // Render settings are checked where they are read.
-        if matches!(role, Role::Skipped | Role::Render) {
+        if matches!(role, Role::Skipped | Role::Node(Node::Render)) {
             return;
         }
         let known = known_attributes(role);
         for at in self.tree.elements[element].attributes() {
-            let word = self.origins.words[at];
-            let is_known = WORDS
-                .get(usize::from(word))
-                .is_some_and(|word| known.contains(word));
-            if is_known {
-                continue;
-            }
-            // From here on it counts as unknown.
-            self.origins.words[at] = NO_WORD;
             let place = self.tree.attributes[at].name;
             let word = place.of(self.text);
+            if known.contains(&word) {
+                continue;
+            }
             let name = quoted(self.name(element));
             let nearest = nearest_word(word, known.iter().copied());
-            let hint = match nearest {
-                Some(nearest) => format!("it is skipped; did you mean `{nearest}`?"),
-                None => "it is skipped".to_owned(),
-            };
-            let expected = if known.is_empty() {
-                "no attribute".to_owned()
-            } else {
-                known.join(", ")
-            };
+            let hint = meaning(SKIPPED, nearest);
+            let expected = listed(&known, "no attribute");
             let message = || format!("attribute {}: unknown in {name}", quoted(word));
             self.warn(place, message, &expected, &hint);
         }
@@ -339,7 +258,7 @@ impl<'a> Lowering<'a> {
                     element,
                     ..
                 }) => format!("values are attributes: <{element} value=\"1\"/>"),
-                _ => "it is skipped".to_owned(),
+                _ => SKIPPED.to_owned(),
             };
             self.report.warning(|| {
                 let message = format!(
@@ -352,11 +271,28 @@ impl<'a> Lowering<'a> {
     }
 }
 
+/// What becomes of something, and the word that was probably meant.
+fn meaning(hint: &str, nearest: Option<&str>) -> String {
+    match nearest {
+        Some(nearest) => format!("{hint}; did you mean `{nearest}`?"),
+        None => hint.to_owned(),
+    }
+}
+
+/// Known words, for a message.
+fn listed(known: &[&str], none: &str) -> String {
+    if known.is_empty() {
+        none.to_owned()
+    } else {
+        known.join(", ")
+    }
+}
+
 /// The transforms of an element.
 fn transforms_in(role: Role) -> &'static [&'static Parameter] {
     match role {
-        Role::Object(_) => TRANSFORMS,
-        Role::Parameter(of) if of.texture == Texturing::Yes => TRANSFORMS,
+        Role::Node(Node::Object(_)) => TRANSFORMS,
+        Role::Parameter(of) if of.may_have_texture => TRANSFORMS,
         _ => &[],
     }
 }
@@ -374,17 +310,20 @@ fn shown(name: &str) -> Box<str> {
 /// The known attributes of an element.
 fn known_attributes(role: Role) -> Vec<&'static str> {
     match role {
-        Role::Skipped | Role::Root | Role::Scene | Role::Render => Vec::new(),
-        Role::Camera => vec!["gamma"],
-        Role::Light(_) | Role::Material(_) => vec!["type", "name"],
-        Role::Object(_) => vec!["type", "name", "material"],
+        Role::Skipped | Role::Root | Role::Scene => Vec::new(),
+        Role::Node(Node::View) => vec![GAMMA.attribute],
+        Role::Node(node) => {
+            let class = node.category().and_then(|(category, _)| class_of(category));
+            let words = class.map_or(&[][..], |class| class.words);
+            words.iter().map(|word| word.attribute).collect()
+        }
         Role::Transform(parameter) | Role::Parameter(parameter) => {
             let mut known = parameter.reading.attributes().to_vec();
             if parameter.reading == Attributes::Rotation {
                 known.push("value");
             }
             known.extend(parameter.extras.iter().map(|extra| extra.attribute));
-            if parameter.texture == Texturing::Yes {
+            if parameter.may_have_texture {
                 known.push("texture");
             }
             known

@@ -5,11 +5,12 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::Lowering;
-use crate::xml::table::materials::{
-    ABSORPTION, COLOUR, DIFFUSE, EMISSION, GLOSSINESS, INDEX, METALLIC, REFLECTION, REFRACTION,
+use crate::schema::Category;
+use crate::xml::schema::{
+    ABSORPTION, ATTENUATION, COLOUR, DIFFUSE, DIRECT, DIRECTION, EMISSION, GLOSSINESS, INDEX,
+    INTENSITY, METALLIC, MICROFACET, PHONG, POINT, POSITION, RADIUS, REFLECTION, REFRACTION,
     REFRACTION_INDEX, ROUGHNESS, SPECULAR, SPREAD, TRANSMITTANCE,
 };
-use crate::xml::table::{LightKind, MaterialKind, lights};
 use geometry::normalise;
 use scene::{
     Dielectric, Emitter, Faces, Falloff, Gloss, Highlight, Light, Maps, Material, Mirror,
@@ -18,19 +19,23 @@ use scene::{
 
 impl Lowering<'_> {
     pub(super) fn material(&mut self, index: usize) {
-        let (kind, element) = {
-            let place = &self.origins.materials[index];
-            (place.kind, place.element as usize)
+        let place = &self.origins.of(Category::Material)[index];
+        let (kind, element) = (place.kind, place.element as usize);
+        let (mut material, mut maps) = if *kind == MICROFACET {
+            self.microfacet(element)
+        } else {
+            self.glossy(element, *kind == PHONG)
         };
-        let material = match kind {
-            MaterialKind::Blinn => self.glossy(element, Highlight::Blinn),
-            MaterialKind::Phong => self.glossy(element, Highlight::ModifiedPhong),
-            MaterialKind::Microfacet => self.microfacet(element),
-        };
+        material.dielectric.absorption = self.vector(Some(element), &ABSORPTION);
+        let emission = self.tinted(element, &EMISSION);
+        material.emission = emission.colour;
+        maps.emission = emission.texture;
+        material.lit = lit(material.dielectric.tint);
+        material.maps = maps.boxed();
         self.materials.push(material);
     }
 
-    fn glossy(&mut self, element: usize, highlight: fn(Gloss) -> Highlight) -> Material {
+    fn glossy(&mut self, element: usize, is_phong: bool) -> (Material, Maps) {
         let diffuse = self.tinted(element, &DIFFUSE);
         let specular = self.tinted(element, &SPECULAR);
         let (exponent, exponent_map) = self.textured(element, &GLOSSINESS);
@@ -39,23 +44,17 @@ impl Lowering<'_> {
         let dielectric = self.tinted(element, &REFRACTION);
         let dielectric_spread = self.extra(element, &REFRACTION, &SPREAD);
         let index = self.extra(element, &REFRACTION, &REFRACTION_INDEX);
-        let absorption = self.vector(Some(element), &ABSORPTION);
-        let emission = self.tinted(element, &EMISSION);
-        let maps = Maps {
-            diffuse: diffuse.texture,
-            specular: specular.texture,
-            exponent: exponent_map,
-            mirror: mirror.texture,
-            dielectric: dielectric.texture,
-            emission: emission.texture,
-            ..Maps::default()
+        let gloss = Gloss {
+            specular: specular.colour,
+            exponent,
         };
-        Material {
+        let material = Material {
             diffuse: diffuse.colour,
-            highlight: highlight(Gloss {
-                specular: specular.colour,
-                exponent,
-            }),
+            highlight: if is_phong {
+                Highlight::ModifiedPhong(gloss)
+            } else {
+                Highlight::Blinn(gloss)
+            },
             mirror: Mirror {
                 tint: mirror.colour,
                 spread: mirror_spread,
@@ -65,33 +64,29 @@ impl Lowering<'_> {
                 tint: dielectric.colour,
                 index,
                 spread: dielectric_spread,
-                absorption,
                 reflectance: Reflectance::Schlick,
+                ..Dielectric::OPAQUE
             },
-            emission: emission.colour,
-            lit: lit(dielectric.colour),
-            maps: maps.boxed(),
             ..Material::BLACK
-        }
+        };
+        let maps = Maps {
+            diffuse: diffuse.texture,
+            specular: specular.texture,
+            exponent: exponent_map,
+            mirror: mirror.texture,
+            dielectric: dielectric.texture,
+            ..Maps::default()
+        };
+        (material, maps)
     }
 
-    fn microfacet(&mut self, element: usize) -> Material {
+    fn microfacet(&mut self, element: usize) -> (Material, Maps) {
         let colour = self.tinted(element, &COLOUR);
         let (roughness, roughness_map) = self.textured(element, &ROUGHNESS);
         let (metallic, metallic_map) = self.textured(element, &METALLIC);
         let dielectric = self.tinted(element, &TRANSMITTANCE);
         let index = self.number(Some(element), &INDEX);
-        let absorption = self.vector(Some(element), &ABSORPTION);
-        let emission = self.tinted(element, &EMISSION);
-        let maps = Maps {
-            diffuse: colour.texture,
-            roughness: roughness_map,
-            metallic: metallic_map,
-            dielectric: dielectric.texture,
-            emission: emission.texture,
-            ..Maps::default()
-        };
-        Material {
+        let material = Material {
             diffuse: colour.colour,
             highlight: Highlight::Microfacet {
                 roughness,
@@ -100,71 +95,63 @@ impl Lowering<'_> {
             dielectric: Dielectric {
                 tint: dielectric.colour,
                 index,
-                absorption,
                 ..Dielectric::OPAQUE
             },
-            emission: emission.colour,
-            lit: lit(dielectric.colour),
-            maps: maps.boxed(),
             ..Material::BLACK
-        }
+        };
+        let maps = Maps {
+            diffuse: colour.texture,
+            roughness: roughness_map,
+            metallic: metallic_map,
+            dielectric: dielectric.texture,
+            ..Maps::default()
+        };
+        (material, maps)
     }
 
     pub(super) fn light(&mut self, index: usize) {
-        let (kind, element) = {
-            let place = &self.origins.lights[index];
-            (place.kind, place.element as usize)
+        let place = &self.origins.of(Category::Light)[index];
+        let (kind, element) = (place.kind, place.element as usize);
+        let colour = self.vector(Some(element), &INTENSITY);
+        let emitter = if *kind == DIRECT {
+            Emitter::Distant(self.toward(element))
+        } else if *kind == POINT {
+            self.point(element)
+        } else {
+            Emitter::Ambient
         };
-        let dark = Light {
-            emitter: Emitter::Ambient,
-            colour: Rgb::ZERO,
+        self.lights.push(Light {
+            emitter,
+            colour,
             // Path tracing must not darken a scene that is not made for it.
             scale: match self.origins.transfer {
                 Transfer::Srgb => 1.0,
                 Transfer::Linear => PI,
             },
             shadows: Shadows::Cast,
-        };
-        let light = match kind {
-            LightKind::Ambient => Light {
-                colour: self.vector(Some(element), &lights::INTENSITY),
-                ..dark
-            },
-            LightKind::Direct => {
-                let colour = self.vector(Some(element), &lights::INTENSITY);
-                let emitter = Emitter::Distant(self.toward(element));
-                Light {
-                    emitter,
-                    colour,
-                    ..dark
-                }
-            }
-            LightKind::Point => self.point(element, dark),
-        };
-        self.lights.push(light);
+        });
     }
 
     /// The unit vector toward a light, opposite to its direction.
     fn toward(&mut self, element: usize) -> DVec3 {
-        let direction = self.vector(Some(element), &lights::DIRECTION);
+        let direction = self.vector(Some(element), &DIRECTION);
         if let Some(direction) = normalise(direction) {
             return -direction;
         }
         // Malformed numbers were already reported.
-        if let Some(element) = self
-            .element_of(Some(element), &lights::DIRECTION)
-            .filter(|_| direction == DVec3::ZERO)
-        {
-            self.zero(element);
+        let stated = self.element_of(Some(element), &DIRECTION);
+        if let Some(element) = stated.filter(|_| direction == DVec3::ZERO) {
+            let (name, span) = (self.display_name(element), self.attributes_span(element));
+            let message = || format!("{name}: must not be zero");
+            self.error(span, message, "a direction");
         }
         DVec3::Z
     }
 
-    fn point(&mut self, element: usize, dark: Light) -> Light {
-        let colour = self.vector(Some(element), &lights::INTENSITY);
-        let position = self.vector(Some(element), &lights::POSITION);
-        let radius = self.number(Some(element), &lights::RADIUS);
-        let attenuation = self.number(Some(element), &lights::ATTENUATION);
+    fn point(&mut self, element: usize) -> Emitter {
+        let position = self.vector(Some(element), &POSITION);
+        let radius = self.number(Some(element), &RADIUS);
+        let attenuation = self.number(Some(element), &ATTENUATION);
         let falloff = if 0.0 < attenuation {
             Falloff {
                 radial: [0.0, 0.0, attenuation * attenuation],
@@ -173,14 +160,10 @@ impl Lowering<'_> {
         } else {
             Falloff::NONE
         };
-        Light {
-            emitter: Emitter::Point {
-                position,
-                radius,
-                falloff,
-            },
-            colour,
-            ..dark
+        Emitter::Point {
+            position,
+            radius,
+            falloff,
         }
     }
 }

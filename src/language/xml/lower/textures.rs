@@ -3,10 +3,10 @@
 use glam::{DAffine3, DVec3};
 
 use super::Lowering;
-use crate::xml::origins::{NamedPlace, What};
-use crate::xml::table::{CHECKER, Parameter, Texturing};
+use crate::xml::origins::What;
+use crate::xml::parameter::Parameter;
+use crate::xml::schema::CHECKER;
 use scene::{Pattern, Side, Texture, Tinted};
-use text::Diagnostic;
 
 /// The name of the checkerboard texture.
 const CHECKERBOARD: &str = "checkerboard";
@@ -22,20 +22,10 @@ struct Square {
 impl Lowering<'_> {
     /// The colour of an element's parameter, with its texture, or the default.
     pub(super) fn tinted(&mut self, holder: usize, parameter: &'static Parameter) -> Tinted {
-        match self.element_of(Some(holder), parameter) {
-            Some(element) => self.tinted_in(element, parameter),
-            None => Tinted {
-                colour: self.vector(None, parameter),
-                texture: None,
-            },
-        }
-    }
-
-    /// The colour stated by an element, with its texture.
-    pub(super) fn tinted_in(&mut self, element: usize, parameter: &'static Parameter) -> Tinted {
+        let element = self.element_of(Some(holder), parameter);
         Tinted {
             colour: self.vector_in(element, parameter),
-            texture: self.texture_in(element, parameter),
+            texture: element.and_then(|element| self.texture_in(element, parameter)),
         }
     }
 
@@ -58,7 +48,7 @@ impl Lowering<'_> {
         while let Some(next) = pending.pop() {
             let colour = CHECKER[next.place];
             let tinted = Tinted {
-                colour: self.vector_in(next.element, colour),
+                colour: self.vector_in(Some(next.element), colour),
                 texture: self.one_texture(next.element, colour, &mut pending),
             };
             let pattern = &mut self.textures[next.texture].pattern;
@@ -75,18 +65,14 @@ impl Lowering<'_> {
         parameter: &'static Parameter,
         pending: &mut Vec<Square>,
     ) -> Option<u32> {
-        let attribute = self.origins.attribute(self.tree, element, "texture");
-        let attribute = attribute.filter(|_| parameter.texture == Texturing::Yes)?;
+        let attribute = self.tree.attribute_at(self.text, element, "texture");
+        let attribute = attribute.filter(|_| parameter.may_have_texture)?;
         let value = &self.tree.attributes[attribute];
         let (word, span) = (value.unescaped(self.text), value.value);
         if word.is_empty() {
             let message = || "texture: the name is missing".to_owned();
-            self.warn(
-                span,
-                message,
-                "checkerboard, or a picture file",
-                "the texture is ignored",
-            );
+            let (expected, hint) = ("checkerboard, or a picture file", "the texture is ignored");
+            self.warn(span, message, expected, hint);
             return None;
         }
         let texture = self.textures.len();
@@ -107,20 +93,14 @@ impl Lowering<'_> {
                 side: Side::Half,
             }
         } else {
-            self.origins.files.push(NamedPlace {
-                element,
-                attribute,
-                what: What::Texture,
-            });
+            self.origins.note_file(element, attribute, What::Texture);
             Pattern::Image(word.to_owned())
         };
         let transform = self.transform_of(element);
         let inverse = transform.map_or(Some(DAffine3::IDENTITY), inverse);
         let inverse = inverse.unwrap_or_else(|| {
-            self.report.error(|| {
-                let message = "texture: its transforms are not invertible";
-                Diagnostic::error(span, message, "invertible transforms")
-            });
+            let message = || "texture: its transforms are not invertible".to_owned();
+            self.error(span, message, "invertible transforms");
             DAffine3::IDENTITY
         });
         self.textures.push(Texture { inverse, pattern });

@@ -5,7 +5,9 @@ use glam::DVec3;
 use super::Lowering;
 use crate::report::{number_of, out_of_range};
 use crate::schema::{Field, Kind};
-use crate::xml::table::{Attributes, Extra, Parameter};
+use crate::xml::parameter::{Attributes, Parameter, Single};
+use crate::xml::tree::Attribute;
+use scene::Transfer;
 use text::{Diagnostic, Findings, Span, is_integer};
 
 impl<'a> Lowering<'a> {
@@ -24,24 +26,28 @@ impl<'a> Lowering<'a> {
 
     /// A word stated by an element; `None` if missing.
     pub(super) fn word(&self, element: usize, word: &str) -> Option<&'a str> {
-        let at = self.origins.attribute(self.tree, element, word)?;
-        let word = self.tree.attributes[at].unescaped(self.text);
+        let word = self.value(element, word)?.unescaped(self.text);
         (!word.is_empty()).then_some(word)
     }
 
+    /// The attribute of an element with this name.
+    pub(super) fn value(&self, element: usize, word: &str) -> Option<&'a Attribute> {
+        self.tree.attribute(self.text, element, word)
+    }
+
     /// The name of an attribute's number in messages.
-    fn what(&self, element: usize, attribute: usize) -> String {
+    fn what(&self, element: usize, attribute: &Attribute) -> String {
         let owner = self.display_name(element);
-        match self.tree.attributes[attribute].name.of(self.text) {
+        match attribute.name.of(self.text) {
             "value" => owner,
             name => format!("{owner} {name}"),
         }
     }
 
     /// The checked number of an attribute; NaN, with an error, if malformed.
-    fn number_at(&mut self, element: usize, attribute: usize, field: &Field) -> f64 {
-        let span = self.tree.attributes[attribute].value;
-        let word = self.tree.attributes[attribute].unescaped(self.text).trim();
+    fn number_at(&mut self, element: usize, attribute: &Attribute, field: &Field) -> f64 {
+        let span = attribute.value;
+        let word = attribute.unescaped(self.text).trim();
         let what = || self.what(element, attribute);
         let mut findings = Findings::default();
         let value = number_of(field, span, word, &mut findings, what);
@@ -49,15 +55,16 @@ impl<'a> Lowering<'a> {
         let is_fraction = field.kind == Kind::Side && !is_integer(word);
         if value.is_nan() {
             // Already reported.
-        } else if !field.allowed.contains(value) || is_too_large || is_fraction {
+        } else if is_too_large || is_fraction {
             let limits = if is_too_large {
                 format!("{} at most", u32::MAX)
             } else {
-                field.allowed.limits_against(value)
+                field.allowed.limits()
             };
             let message = format!("{}: must be {limits}", what());
-            let expected = field.allowed.words_against(value);
-            findings.error(|| Diagnostic::error(span, message, expected));
+            findings.error(|| Diagnostic::error(span, message, field.allowed.words()));
+        } else if !field.allowed.contains(value) {
+            findings.error(|| out_of_range(field, span, value, &what()));
         } else if !field.usual.contains(value) {
             findings.warning(|| out_of_range(field, span, value, &what()));
         }
@@ -74,7 +81,7 @@ impl<'a> Lowering<'a> {
         field: &Field,
         otherwise: &str,
     ) -> f64 {
-        match self.origins.attribute(self.tree, element, attribute) {
+        match self.value(element, attribute) {
             Some(at) => self.number_at(element, at, field),
             None => plain(otherwise),
         }
@@ -83,26 +90,26 @@ impl<'a> Lowering<'a> {
     /// The number of a parameter, or its default.
     pub(super) fn number(&mut self, holder: Option<usize>, parameter: &'static Parameter) -> f64 {
         match self.element_of(holder, parameter) {
-            Some(element) => self.number_in(element, parameter),
+            Some(element) => self.number_or(element, "value", &parameter.field, parameter.inside),
             None => plain(parameter.missing[0]),
         }
     }
 
-    /// The number stated by an element.
-    pub(super) fn number_in(&mut self, element: usize, parameter: &'static Parameter) -> f64 {
-        self.number_or(element, "value", &parameter.field, parameter.inside)
-    }
-
     /// The vector or colour of a parameter, or its default.
     pub(super) fn vector(&mut self, holder: Option<usize>, parameter: &'static Parameter) -> DVec3 {
-        match self.element_of(holder, parameter) {
-            Some(element) => self.vector_in(element, parameter),
-            None => DVec3::from_array([0, 1, 2].map(|at| plain(parameter.missing[at]))),
-        }
+        let element = self.element_of(holder, parameter);
+        self.vector_in(element, parameter)
     }
 
-    /// The vector or colour stated by an element.
-    pub(super) fn vector_in(&mut self, element: usize, parameter: &'static Parameter) -> DVec3 {
+    /// The vector or colour stated by an element, or its default if there is none.
+    pub(super) fn vector_in(
+        &mut self,
+        element: Option<usize>,
+        parameter: &'static Parameter,
+    ) -> DVec3 {
+        let Some(element) = element else {
+            return DVec3::from_array([0, 1, 2].map(|at| plain(parameter.missing[at])));
+        };
         let names = parameter.reading.attributes();
         let field = &parameter.field;
         let [x, y, z] =
@@ -120,20 +127,16 @@ impl<'a> Lowering<'a> {
         product
     }
 
-    /// The axis and the angle, in degrees, of a rotation.
-    pub(super) fn rotation_in(
-        &mut self,
-        element: usize,
-        parameter: &'static Parameter,
-    ) -> (DVec3, f64) {
-        let axis = self.vector_in(element, parameter);
-        let has_angle = self
-            .origins
-            .attribute(self.tree, element, "angle")
-            .is_some();
-        let angle = if has_angle { "angle" } else { "value" };
-        let angle = self.number_or(element, angle, &parameter.field, "0");
-        (axis, angle)
+    /// The angle of a rotation, in degrees; 0 for another transform.
+    pub(super) fn angle_in(&mut self, element: usize, parameter: &'static Parameter) -> f64 {
+        if parameter.reading != Attributes::Rotation {
+            return 0.0;
+        }
+        let angle = match self.value(element, "angle") {
+            Some(_) => "angle",
+            None => "value",
+        };
+        self.number_or(element, angle, &parameter.field, "0")
     }
 
     /// A further number of a parameter, or its default.
@@ -141,14 +144,14 @@ impl<'a> Lowering<'a> {
         &mut self,
         holder: usize,
         parameter: &'static Parameter,
-        extra: &Extra,
+        extra: &Single,
     ) -> f64 {
         match self.element_of(Some(holder), parameter) {
             Some(element) => {
                 let missing = extra.missing(self.origins.transfer);
                 self.number_or(element, extra.attribute, &extra.field, missing)
             }
-            None => plain(extra.missing),
+            None => plain(extra.missing(Transfer::Linear)),
         }
     }
 
@@ -163,20 +166,10 @@ impl<'a> Lowering<'a> {
 
     /// All attributes of an element, or its name if it has none.
     pub(super) fn attributes_span(&self, element: usize) -> Span {
-        let own = &self.tree.attributes[self.tree.elements[element].attributes()];
-        match own {
+        match &self.tree.attributes[self.tree.elements[element].attributes()] {
             [] => self.place(element),
-            [first, .., last] => first.name.to(last.value),
-            [only] => only.name.to(only.value),
+            own @ [first, ..] => first.name.to(own[own.len() - 1].value),
         }
-    }
-
-    /// Reports a direction of zero length.
-    pub(super) fn zero(&mut self, element: usize) {
-        let name = self.display_name(element);
-        let span = self.attributes_span(element);
-        self.report
-            .error(|| Diagnostic::error(span, format!("{name}: must not be zero"), "a direction"));
     }
 }
 

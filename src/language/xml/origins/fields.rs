@@ -2,37 +2,46 @@
 
 use super::insert;
 use super::{Origins, Role};
-use crate::field_spans::{FieldSpans, Implicit, ImplicitAttribute, Insertion};
+use crate::field_spans::{Component, FieldSpans, Insertion};
 use crate::node::Node;
 use crate::rendering;
-use crate::schema::Field;
-use crate::xml::table::{
-    Attributes, BACKGROUND, CHECKER, ENVIRONMENT, LIGHT_WORDS, MATERIAL_WORDS, OBJECT, Parameter,
-    TEXTURE, Texturing, Word, camera,
-};
+use crate::xml::parameter::{Attributes, Parameter, Single};
+use crate::xml::schema::{BACKGROUND, CAMERA, CHECKER, ENVIRONMENT, GAMMA, TEXTURE, class_of};
 use crate::xml::tree::Tree;
 use scene::{Integrator, Rendering, Transfer};
-use text::Span;
 
 /// Maximum number of rows of a node; nobody reads more.
 const MOST_ROWS: usize = 256;
 
 /// The fields of a node.
-pub(in crate::xml) fn of(origins: &Origins, tree: &Tree, node: Node) -> Vec<FieldSpans> {
+pub(in crate::xml) fn of(
+    text: &str,
+    tree: &Tree,
+    origins: &Origins,
+    node: Node,
+) -> Vec<FieldSpans> {
     let mut rows = Rows {
+        text,
         origins,
         tree,
         placed: Vec::new(),
     };
     match node {
-        Node::View => {
-            for parameter in camera::PARAMETERS {
-                rows.parameter(Holder::camera(origins), parameter);
+        Node::View => match (origins.camera, origins.root) {
+            (Some(camera), _) => {
+                for parameter in CAMERA {
+                    rows.parameter(camera, parameter);
+                }
+                rows.single(camera, &GAMMA);
             }
-            if let Some(element) = origins.camera {
-                rows.word(element, &camera::GAMMA);
+            (None, Some(root)) => {
+                let insertion = insert::in_camera(tree, root);
+                for parameter in CAMERA {
+                    rows.missing(parameter, insertion.clone());
+                }
             }
-        }
+            (None, None) => {}
+        },
         Node::Render => {
             let place = origins.render.map(|_| &origins.settings);
             let insertion = match (origins.render, origins.root) {
@@ -44,30 +53,9 @@ pub(in crate::xml) fn of(origins: &Origins, tree: &Tree, node: Node) -> Vec<Fiel
             let defaults = of_gamma(origins.transfer);
             rows.placed = rendering::fields(place, &defaults, &insertion, element);
         }
-        Node::Background => rows.parameter(origins.scene.map(Holder::There), &BACKGROUND),
-        Node::Environment => rows.parameter(origins.scene.map(Holder::There), &ENVIRONMENT),
-        Node::Light(index) => {
-            if let Some(light) = origins.lights.get(index) {
-                rows.thing(
-                    light.element as usize,
-                    &LIGHT_WORDS,
-                    light.kind.parameters(),
-                );
-            }
-        }
-        Node::Material(index) => {
-            if let Some(material) = origins.materials.get(index) {
-                let parameters = material.kind.parameters();
-                rows.thing(material.element as usize, &MATERIAL_WORDS, parameters);
-            }
-        }
-        Node::Object(index) => {
-            if let Some(object) = origins.objects.get(index) {
-                rows.thing(object.element as usize, &OBJECT, &[]);
-                rows.transforms(object.element as usize);
-            }
-        }
-        Node::Ambient | Node::Texture(_) => {}
+        Node::Background => rows.of_scene(&BACKGROUND),
+        Node::Environment => rows.of_scene(&ENVIRONMENT),
+        _ => rows.thing(node),
     }
     rows.placed
 }
@@ -84,76 +72,48 @@ pub(in crate::xml) fn of_gamma(gamma: Transfer) -> Rendering {
     }
 }
 
-/// The parent of a parameter.
-#[derive(Clone, Copy)]
-enum Holder {
-    There(usize),
-    /// A missing child of this element, by its tags.
-    Missing(usize, &'static str, &'static str),
-}
-
-impl Holder {
-    fn camera(origins: &Origins) -> Option<Self> {
-        match (origins.camera, origins.root) {
-            (Some(camera), _) => Some(Self::There(camera)),
-            (None, Some(root)) => Some(Self::Missing(root, "<camera>", "</camera>")),
-            (None, None) => None,
-        }
-    }
-}
-
 struct Rows<'a> {
+    text: &'a str,
     origins: &'a Origins,
     tree: &'a Tree,
     placed: Vec<FieldSpans>,
 }
 
 impl Rows<'_> {
-    fn thing(&mut self, element: usize, words: &'static [Word], parameters: &[&'static Parameter]) {
-        for word in words {
-            self.word(element, word);
-        }
-        for parameter in parameters {
-            self.parameter(Some(Holder::There(element)), parameter);
-        }
-    }
-
-    /// Adds an attribute whose value is a word.
-    fn word(&mut self, element: usize, word: &'static Word) {
-        let field = &word.field;
-        if let Some(attribute) = self.origins.value(self.tree, element, field.key) {
-            self.placed
-                .push(FieldSpans::explicit(field, vec![attribute.value]));
+    /// Adds the fields of a light, a material or an object.
+    fn thing(&mut self, node: Node) {
+        let (Some(place), Some((category, _))) = (self.origins.get(node), node.category()) else {
             return;
+        };
+        let element = place.element as usize;
+        for word in class_of(category).map_or(&[][..], |class| class.words) {
+            self.single(element, word);
         }
-        let insertion = insert::attribute(self.tree, element);
-        self.placed.push(FieldSpans {
-            field,
-            spans: vec![insertion.span],
-            implicit: Some(Box::new(Implicit {
-                defaults: vec![Some(word.missing.into())],
-                attributes: vec![ImplicitAttribute {
-                    component: 0,
-                    name: field.key,
-                    default: word.missing.into(),
-                    is_required: false,
-                }],
-                element: None,
-                insertion,
-                limit: None,
-            })),
-        });
+        for parameter in place.kind.parameters {
+            self.parameter(element, parameter);
+        }
+        self.transforms(element);
     }
 
-    fn parameter(&mut self, holder: Option<Holder>, parameter: &'static Parameter) {
-        let Some(holder) = holder else { return };
-        let element = match holder {
-            Holder::There(holder) => self.origins.parameter(self.tree, holder, parameter),
-            Holder::Missing(..) => None,
-        };
-        match element {
+    fn of_scene(&mut self, parameter: &'static Parameter) {
+        if let Some(scene) = self.origins.scene {
+            self.parameter(scene, parameter);
+        }
+    }
+
+    /// Adds an attribute that is a field of its own.
+    fn single(&mut self, element: usize, single: &'static Single) {
+        let default = single.missing(self.origins.transfer);
+        let own = component((self.text, self.tree), element, single.attribute, default);
+        let insertion = insert::attribute(self.tree, element);
+        let placed = FieldSpans::with_defaults(&single.field, vec![own], None, insertion);
+        self.placed.push(placed);
+    }
+
+    fn parameter(&mut self, holder: usize, parameter: &'static Parameter) {
+        match self.origins.parameter(self.tree, holder, parameter) {
             Some(element) => self.explicit(element, parameter),
-            None => self.missing(holder, parameter),
+            None => self.missing(parameter, insert::child(self.tree, holder)),
         }
     }
 
@@ -164,19 +124,17 @@ impl Rows<'_> {
             if MOST_ROWS < self.placed.len() {
                 return;
             }
-            self.numbers(element, parameter);
+            self.placed
+                .push(numbers(self.text, self.tree, element, parameter));
             for extra in parameter.extras {
-                let insertion = insert::attribute(self.tree, element);
-                let place = self.origins.attribute(self.tree, element, extra.attribute);
-                let missing = extra.missing(self.origins.transfer);
-                let attribute = (extra.attribute, place, missing);
-                self.attributes(&extra.field, &[attribute], &insertion);
+                self.single(element, extra);
             }
-            let Some(texture) = self.texture(element, parameter) else {
+            let texture = self.tree.attribute(self.text, element, "texture");
+            let Some(texture) = texture.filter(|_| parameter.may_have_texture) else {
                 continue;
             };
             self.placed
-                .push(FieldSpans::explicit(&TEXTURE, vec![texture]));
+                .push(FieldSpans::explicit(&TEXTURE, vec![texture.value]));
             self.transforms(element);
             let colours = CHECKER.iter().copied().rev();
             pending.extend(colours.filter_map(|colour| {
@@ -186,120 +144,72 @@ impl Rows<'_> {
         }
     }
 
-    /// The place of a parameter's texture.
-    fn texture(&self, element: usize, parameter: &Parameter) -> Option<Span> {
-        let may = parameter.texture == Texturing::Yes;
-        let attribute = self
-            .origins
-            .value(self.tree, element, "texture")
-            .filter(|_| may);
-        attribute.map(|attribute| attribute.value)
-    }
-
     fn transforms(&mut self, holder: usize) {
         for child in self.tree.children(holder) {
             if MOST_ROWS < self.placed.len() {
                 return;
             }
             if let Some(Role::Transform(parameter)) = self.origins.roles.get(child) {
-                self.numbers(child, parameter);
+                self.placed
+                    .push(numbers(self.text, self.tree, child, parameter));
             }
         }
-    }
-
-    /// Adds the numbers of an existing element.
-    fn numbers(&mut self, element: usize, parameter: &'static Parameter) {
-        let find = |name: &str| self.origins.attribute(self.tree, element, name);
-        let names = parameter.reading.attributes();
-        let mut attributes: Vec<_> = names
-            .iter()
-            .map(|&name| (name, find(name), parameter.inside(name)))
-            .collect();
-        let mut field = &parameter.field;
-        match parameter.reading {
-            // It stands in for a missing `angle`.
-            Attributes::Rotation if attributes[3].1.is_none() => attributes[3].1 = find("value"),
-            Attributes::Vector | Attributes::Colour if attributes[3].1.is_none() => {
-                attributes.truncate(3);
-            }
-            Attributes::Vector | Attributes::Colour => field = &parameter.scaled,
-            Attributes::Number | Attributes::Rotation => {}
-        }
-        self.attributes(field, &attributes, &insert::attribute(self.tree, element));
-    }
-
-    /// Adds a field whose components are attributes of one element, given their names, places and
-    /// defaults.
-    fn attributes(
-        &mut self,
-        field: &'static Field,
-        attributes: &[(&'static str, Option<usize>, &'static str)],
-        insertion: &Insertion,
-    ) {
-        let place = |&(_, explicit, _): &(_, Option<usize>, _)| {
-            explicit.map_or(insertion.span, |at| self.tree.attributes[at].value)
-        };
-        let spans = attributes.iter().map(place).collect();
-        let is_explicit = attributes.iter().all(|(_, explicit, _)| explicit.is_some());
-        let implicit = || {
-            let missing = attributes.iter().enumerate();
-            let missing = missing.filter(|(_, (_, explicit, _))| explicit.is_none());
-            Box::new(Implicit {
-                defaults: attributes
-                    .iter()
-                    .map(|&(_, explicit, default)| explicit.is_none().then(|| default.into()))
-                    .collect(),
-                attributes: missing
-                    .map(|(component, &(name, _, default))| ImplicitAttribute {
-                        component,
-                        name,
-                        default: default.into(),
-                        is_required: false,
-                    })
-                    .collect(),
-                element: None,
-                insertion: insertion.clone(),
-                limit: None,
-            })
-        };
-        self.placed.push(FieldSpans {
-            field,
-            spans,
-            implicit: (!is_explicit).then(implicit),
-        });
     }
 
     /// Adds a parameter whose element is missing.
-    fn missing(&mut self, holder: Holder, parameter: &'static Parameter) {
-        let insertion = match holder {
-            Holder::There(holder) => insert::child(self.tree, holder),
-            Holder::Missing(outer, open, close) => {
-                insert::grandchild(self.tree, outer, open, close)
-            }
-        };
-        let names = parameter.reading.attributes();
-        let attributes = names.iter().zip(parameter.missing).enumerate();
-        self.placed.push(FieldSpans {
-            field: &parameter.field,
-            spans: vec![Span::at(insertion.span.start()); parameter.missing.len()],
-            implicit: Some(Box::new(Implicit {
-                defaults: parameter
-                    .missing
-                    .iter()
-                    .map(|&missing| Some(missing.into()))
-                    .collect(),
-                attributes: attributes
-                    .map(|(component, (&name, &default))| ImplicitAttribute {
-                        component,
-                        name,
-                        default: default.into(),
-                        is_required: default != parameter.inside,
-                    })
-                    .collect(),
-                element: Some(parameter.element),
-                insertion,
-                limit: None,
-            })),
+    fn missing(&mut self, parameter: &'static Parameter, insertion: Insertion) {
+        let names = parameter.reading.attributes().iter();
+        let components = names.zip(parameter.missing);
+        let components = components.map(|(&name, &default)| Component {
+            name,
+            place: None,
+            default: default.into(),
+            is_required: default != parameter.inside,
         });
+        let (components, element) = (components.collect(), Some(parameter.element));
+        let field = &parameter.field;
+        let placed = FieldSpans::with_defaults(field, components, element, insertion);
+        self.placed.push(placed);
     }
+}
+
+/// The attribute of an element with this name.
+fn component(
+    (text, tree): (&str, &Tree),
+    element: usize,
+    name: &'static str,
+    default: &'static str,
+) -> Component {
+    let attribute = tree.attribute(text, element, name);
+    Component {
+        name,
+        place: attribute.map(|attribute| attribute.value),
+        default: default.into(),
+        is_required: false,
+    }
+}
+
+/// The numbers of an existing element.
+pub(in crate::xml) fn numbers(
+    text: &str,
+    tree: &Tree,
+    element: usize,
+    parameter: &'static Parameter,
+) -> FieldSpans {
+    let read = |name| component((text, tree), element, name, parameter.inside(name));
+    let names = parameter.reading.attributes().iter();
+    let mut components: Vec<_> = names.map(|&name| read(name)).collect();
+    let mut own = &parameter.field;
+    match parameter.reading {
+        // It stands in for a missing `angle`.
+        Attributes::Rotation if components[3].place.is_none() => {
+            components[3].place = read("value").place;
+        }
+        Attributes::Vector | Attributes::Colour if components[3].place.is_none() => {
+            components.truncate(3);
+        }
+        Attributes::Vector | Attributes::Colour => own = &parameter.scaled,
+        Attributes::Number | Attributes::Rotation => {}
+    }
+    FieldSpans::with_defaults(own, components, None, insert::attribute(tree, element))
 }

@@ -6,29 +6,31 @@ use text::Span;
 
 /// Where to insert another attribute of an element.
 pub(super) fn attribute(tree: &Tree, element: usize) -> Insertion {
-    let end = tree.elements[element].attributes_end as usize;
-    Insertion {
-        span: Span::at(end),
-        before: Vec::new(),
-        between: Vec::new(),
-        after: Vec::new(),
+    Insertion::at(tree.elements[element].attributes_end as usize)
+}
+
+/// Where to insert another child: after the last one with its indentation, or as the first one.
+pub(super) fn child(tree: &Tree, parent: usize) -> Insertion {
+    match tree.children(parent).last() {
+        Some(last) => after(tree, last),
+        None => first(tree, parent),
     }
 }
 
-/// Where to insert another child: after the last one with its indentation, or as the first one,
-/// indented by two blanks more than the parent.
-pub(super) fn child(tree: &Tree, parent: usize) -> Insertion {
-    let own = &tree.elements[parent];
-    if let Some(last) = tree.children(parent).last() {
-        let last = &tree.elements[last];
-        let before = vec![Piece::Copy(last.lead)];
-        return Insertion {
-            span: Span::at(last.whole.end()),
-            between: before.clone(),
-            before,
-            after: Vec::new(),
-        };
+/// Where to insert another element after one, with its indentation.
+pub(in crate::xml) fn after(tree: &Tree, element: usize) -> Insertion {
+    let own = &tree.elements[element];
+    let before = vec![Piece::Copy(own.lead)];
+    Insertion {
+        between: before.clone(),
+        before,
+        ..Insertion::at(own.whole.end())
     }
+}
+
+/// Where to insert the first child, indented by two blanks more than its parent.
+pub(in crate::xml) fn first(tree: &Tree, parent: usize) -> Insertion {
+    let own = &tree.elements[parent];
     let mut between = vec![Piece::Copy(own.lead)];
     if !own.lead.is_empty() {
         between.push(Piece::Literal("  "));
@@ -49,27 +51,20 @@ pub(super) fn child(tree: &Tree, parent: usize) -> Insertion {
         };
     }
     let is_empty = own.close as usize == own.tag.end();
+    let after = is_empty.then_some(Piece::Copy(own.lead));
     Insertion {
-        span: Span::at(own.tag.end()),
         before: between.clone(),
         between,
-        after: is_empty
-            .then_some(Piece::Copy(own.lead))
-            .into_iter()
-            .collect(),
+        after: after.into_iter().collect(),
+        ..Insertion::at(own.tag.end())
     }
 }
 
-/// Where to insert an element into a parent that is missing itself.
-pub(super) fn grandchild(
-    tree: &Tree,
-    grandparent: usize,
-    open: &'static str,
-    close: &'static str,
-) -> Insertion {
-    let outer = child(tree, grandparent);
+/// Where to insert an element into the camera, which is missing itself.
+pub(super) fn in_camera(tree: &Tree, root: usize) -> Insertion {
+    let outer = child(tree, root);
     let lead = outer.between.clone();
-    let is_indented = tree.elements[grandparent].depth > 0
+    let is_indented = tree.elements[root].depth > 0
         || lead
             .iter()
             .any(|piece| matches!(piece, Piece::Copy(span) if !span.is_empty()));
@@ -78,10 +73,10 @@ pub(super) fn grandchild(
         between.push(Piece::Literal("  "));
     }
     let mut before = outer.before;
-    before.push(Piece::Literal(open));
+    before.push(Piece::Literal("<camera>"));
     before.extend(&between);
     let mut after = lead;
-    after.push(Piece::Literal(close));
+    after.push(Piece::Literal("</camera>"));
     after.extend(outer.after);
     Insertion {
         span: outer.span,

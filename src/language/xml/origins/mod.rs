@@ -2,12 +2,14 @@
 //! that and of elements in it.
 
 pub(super) mod fields;
-mod insert;
+pub(super) mod insert;
 
-use super::table::{LightKind, MaterialKind, ObjectKind, Parameter};
-use super::tree::{Attribute, Tree};
+use super::parameter::{Parameter, Type};
+use super::schema::{BACKGROUND, ENVIRONMENT};
+use super::tree::Tree;
 use crate::node::Node;
 use crate::rendering::RenderPlace;
+use crate::schema::Category;
 use scene::Transfer;
 
 /// The places of everything lowered, as indices of elements and attributes: valid only with the
@@ -18,19 +20,14 @@ pub(crate) struct Origins {
     pub(super) roles: Vec<Role>,
     /// For each element, the element of the node it belongs to; 0 for none.
     pub(super) owners: Vec<u32>,
-    /// For each attribute, its index in [`WORDS`] or [`NO_WORD`].
-    pub(super) words: Vec<u8>,
     pub(super) root: Option<usize>,
     pub(super) scene: Option<usize>,
     pub(super) camera: Option<usize>,
     pub(super) render: Option<usize>,
     /// What that element states.
     pub(super) settings: RenderPlace,
-    pub(super) lights: Vec<Place<LightKind>>,
-    pub(super) materials: Vec<Place<MaterialKind>>,
-    pub(super) objects: Vec<Place<ObjectKind>>,
-    /// The material of each object, by index.
-    pub(super) object_materials: Vec<Option<usize>>,
+    /// The nodes of each category.
+    places: [Vec<Place>; 4],
     /// The drawn objects, ascending: those of the scene.
     pub(super) drawn: Vec<usize>,
     /// The attributes that name files.
@@ -43,14 +40,16 @@ pub(crate) struct Origins {
 
 /// The place of a light, a material or an object.
 #[derive(Clone, Debug)]
-pub(super) struct Place<Kind> {
+pub(super) struct Place {
     /// Index of its element.
     pub(super) element: u32,
-    pub(super) kind: Kind,
-    /// Its name in the text.
-    pub(super) name: Option<Box<str>>,
     /// Number of objects it is in.
     pub(super) depth: u32,
+    pub(super) kind: &'static Type,
+    /// Its name in the text.
+    pub(super) name: Option<Box<str>>,
+    /// The index of its material.
+    pub(super) material: Option<usize>,
 }
 
 /// The place of an attribute that names a file.
@@ -80,68 +79,61 @@ pub(super) enum Role {
     Skipped,
     Root,
     Scene,
-    Camera,
-    Render,
-    /// Index of the light.
-    Light(u32),
-    /// Index of the material.
-    Material(u32),
-    /// Index of the object.
-    Object(u32),
+    /// A node with an element of its own.
+    Node(Node),
     /// A parameter of its parent.
     Parameter(&'static Parameter),
     /// A transform of its parent.
     Transform(&'static Parameter),
 }
 
-/// The known attributes.
-pub(super) const WORDS: [&str; 15] = [
-    "x",
-    "y",
-    "z",
-    "value",
-    "angle",
-    "r",
-    "g",
-    "b",
-    "index",
-    "glossiness",
-    "texture",
-    "type",
-    "name",
-    "material",
-    "gamma",
-];
-
-/// Marks an unknown attribute.
-pub(super) const NO_WORD: u8 = u8::MAX;
-
 impl Origins {
+    /// The places of the nodes of a category.
+    pub(super) fn of(&self, category: Category) -> &[Place] {
+        &self.places[category as usize]
+    }
+
+    /// The objects.
+    pub(super) fn objects(&self) -> &[Place] {
+        self.of(Category::Object)
+    }
+
+    /// Adds a node.
+    pub(super) fn push(&mut self, category: Category, place: Place) -> Node {
+        let places = &mut self.places[category as usize];
+        places.push(place);
+        Node::of(category, places.len() - 1)
+    }
+
+    /// Notes the material of an object.
+    pub(super) fn set_material(&mut self, object: usize, material: Option<usize>) {
+        self.places[Category::Object as usize][object].material = material;
+    }
+
+    /// Notes an attribute that names a file.
+    pub(super) fn note_file(&mut self, element: usize, attribute: usize, what: What) {
+        self.files.push(NamedPlace {
+            element,
+            attribute,
+            what,
+        });
+    }
+
+    /// The place of a node of a category.
+    pub(super) fn get(&self, node: Node) -> Option<&Place> {
+        let (category, index) = node.category()?;
+        self.of(category).get(index)
+    }
+
+    /// The name of a node: with its kind if it has one, from the text if that names it.
     pub(super) fn name(&self, node: Node) -> String {
-        let name = match node {
-            Node::Light(index) => node_name(node, self.lights.get(index), LightKind::word),
-            Node::Material(index) => node_name(node, self.materials.get(index), MaterialKind::word),
-            Node::Object(index) => node_name(node, self.objects.get(index), ObjectKind::word),
-            _ => None,
-        };
-        name.unwrap_or_else(|| node.to_string())
-    }
-
-    /// The attribute of an element with this name, one of [`WORDS`].
-    pub(super) fn attribute(&self, tree: &Tree, element: usize, word: &str) -> Option<usize> {
-        let word = WORDS.iter().position(|known| *known == word)? as u8;
-        let mut own = tree.elements.get(element)?.attributes();
-        own.find(|&at| self.words.get(at) == Some(&word))
-    }
-
-    /// The value of an attribute.
-    pub(super) fn value<'t>(
-        &self,
-        tree: &'t Tree,
-        element: usize,
-        word: &str,
-    ) -> Option<&'t Attribute> {
-        tree.attributes.get(self.attribute(tree, element, word)?)
+        match self.get(node) {
+            Some(Place { kind, name, .. }) => match name {
+                Some(name) => format!("{name} ({})", kind.word),
+                None => format!("{node} ({})", kind.word),
+            },
+            None => node.to_string(),
+        }
     }
 
     /// The child of an element that sets a parameter.
@@ -158,45 +150,32 @@ impl Origins {
 
     /// The element of a node.
     pub(super) fn element(&self, tree: &Tree, node: Node) -> Option<usize> {
-        use crate::xml::table::{BACKGROUND, ENVIRONMENT};
         match node {
             Node::View => self.camera,
             Node::Render => self.render,
             Node::Background => self.parameter(tree, self.scene?, &BACKGROUND),
             Node::Environment => self.parameter(tree, self.scene?, &ENVIRONMENT),
-            Node::Light(index) => Some(self.lights.get(index)?.element as usize),
-            Node::Material(index) => Some(self.materials.get(index)?.element as usize),
-            Node::Object(index) => Some(self.objects.get(index)?.element as usize),
-            Node::Ambient | Node::Texture(_) => None,
+            _ => Some(self.get(node)?.element as usize),
         }
     }
 
     /// The node that an element belongs to.
     pub(super) fn node_of(&self, element: usize) -> Option<Node> {
         let owner = *self.owners.get(element)?;
-        Some(match self.roles.get(owner as usize)? {
-            Role::Camera => Node::View,
-            Role::Render => Node::Render,
-            Role::Light(index) => Node::Light(*index as usize),
-            Role::Material(index) => Node::Material(*index as usize),
-            Role::Object(index) => Node::Object(*index as usize),
-            Role::Parameter(parameter) if parameter.element == "background" => Node::Background,
-            Role::Parameter(parameter) if parameter.element == "environment" => Node::Environment,
-            _ => return None,
-        })
+        match self.roles.get(owner as usize)? {
+            Role::Node(node) => Some(*node),
+            Role::Parameter(parameter) if **parameter == BACKGROUND => Some(Node::Background),
+            Role::Parameter(parameter) if **parameter == ENVIRONMENT => Some(Node::Environment),
+            _ => None,
+        }
     }
-}
 
-/// The name of a node with a kind: from the text if it has one, otherwise by its number.
-fn node_name<Kind: Copy>(
-    node: Node,
-    place: Option<&Place<Kind>>,
-    word: impl Fn(Kind) -> &'static str,
-) -> Option<String> {
-    let place = place?;
-    let kind = word(place.kind);
-    Some(match &place.name {
-        Some(name) => format!("{name} ({kind})"),
-        None => format!("{node} ({kind})"),
-    })
+    /// The node whose element this is.
+    pub(super) fn own_node(&self, element: usize) -> Option<Node> {
+        let is_own = self
+            .owners
+            .get(element)
+            .is_some_and(|&owner| owner as usize == element);
+        self.node_of(element).filter(|_| is_own)
+    }
 }

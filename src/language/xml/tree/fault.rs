@@ -28,7 +28,8 @@ pub(super) fn diagnostic(text: &str, error: &Error, unclosed: Option<Span>) -> D
             "`&amp;` for a literal &, or the number of a character, such as `&#65;`",
         ),
         Error::InvalidAttributeValue(_) | Error::InvalidChar(b'"' | b'\'', b'<', _) => {
-            less_than(here)
+            Diagnostic::error(here, "`<` in an attribute value", "`&lt;` for a literal <")
+                .with_hint("or the closing quote of the value is missing")
         }
         Error::DuplicatedAttribute(name, _) => Diagnostic::error(
             word(text, at),
@@ -84,12 +85,6 @@ pub(super) fn diagnostic(text: &str, error: &Error, unclosed: Option<Span>) -> D
         }
         _ => Diagnostic::error(here, format!("this is not XML: {error}"), "well-formed XML"),
     }
-}
-
-fn less_than(span: Span) -> Diagnostic {
-    let message = "`<` in an attribute value";
-    Diagnostic::error(span, message, "`&lt;` for a literal <")
-        .with_hint("or the closing quote of the value is missing")
 }
 
 /// The byte offset of a line and a column in characters, both from 1.

@@ -15,7 +15,7 @@ use roxmltree::{Document, Error, Node, NodeType, ParsingOptions};
 
 use crate::words::{skip_white_space, white_space};
 use crate::written::Parse;
-use text::{Diagnostic, Span};
+use text::{Diagnostic, Edit, Span};
 
 /// The elements and comments of a text, each in text order.
 #[derive(Clone, Debug, Default)]
@@ -104,13 +104,15 @@ impl Tree {
         })
     }
 
+    /// The index of the first attribute of an element with this name.
+    pub(super) fn attribute_at(&self, text: &str, element: usize, name: &str) -> Option<usize> {
+        let mut own = self.elements.get(element)?.attributes();
+        own.find(|&at| self.attributes[at].name.of(text) == name)
+    }
+
     /// The first attribute of an element with this name.
     pub(crate) fn attribute(&self, text: &str, element: usize, name: &str) -> Option<&Attribute> {
-        let own = self
-            .attributes
-            .get(self.elements.get(element)?.attributes());
-        let mut own = own.unwrap_or_default().iter();
-        own.find(|attribute| attribute.name.of(text) == name)
+        self.attributes.get(self.attribute_at(text, element, name)?)
     }
 
     /// The attribute value whose text is at a span, with references resolved.
@@ -165,24 +167,18 @@ impl Tree {
 }
 
 impl Parse for Tree {
+    /// Parses elements and comments. Refuses document type declarations, and entities with them.
     fn parse(text: &str) -> Self {
-        parse(text)
+        let mut tree = Self::default();
+        let read = scan::scan(text).and_then(|unclosed| {
+            document(text).map_err(|error| fault::diagnostic(text, &error, unclosed))
+        });
+        match read {
+            Ok(document) => tree.fill(text, &document),
+            Err(fault) => tree.fault = Some(fault),
+        }
+        tree
     }
-}
-
-/// Parses elements and comments. Refuses document type declarations, and entities with them.
-pub(super) fn parse(text: &str) -> Tree {
-    let mut tree = Tree::default();
-    let scan = scan::scan(text);
-    if let Some(refused) = scan.refused {
-        tree.fault = Some(refused);
-        return tree;
-    }
-    match document(text) {
-        Ok(document) => tree.fill(text, &document),
-        Err(error) => tree.fault = Some(fault::diagnostic(text, &error, scan.unclosed)),
-    }
-    tree
 }
 
 /// Returns an error if no text with this beginning can be XML.
@@ -190,9 +186,8 @@ pub(super) fn fault_of_beginning(text: &str) -> Option<Diagnostic> {
     /// An error this close to the end may be caused by the cut: longer than any reference, and than
     /// any delimiter of a comment or the like.
     const NEAR: usize = 64;
-    let scan = scan::scan(text);
-    if scan.refused.is_some() {
-        return scan.refused;
+    if let Err(refused) = scan::scan(text) {
+        return Some(refused);
     }
     match document(text) {
         // What follows may close open elements.
@@ -220,6 +215,14 @@ pub(super) fn quote(text: &str, value: Span) -> char {
         '\''
     } else {
         '"'
+    }
+}
+
+/// The edit that replaces a value.
+pub(super) fn respelled(text: &str, span: Span, value: &str) -> Edit {
+    Edit {
+        span,
+        text: escaped(value, quote(text, span)).into_owned(),
     }
 }
 

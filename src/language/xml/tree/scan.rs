@@ -12,21 +12,14 @@ const MOST_NAME_SPACES: usize = 64;
 /// Maximum nesting depth of elements, far more than in any scene.
 const MOST_LEVELS: usize = 1 << 17;
 
-/// The result of the scan.
-pub(super) struct Scan {
-    /// The error for what is refused.
-    pub(super) refused: Option<Diagnostic>,
-    /// The innermost element that is never closed, by its `<` and name.
-    pub(super) unclosed: Option<Span>,
-}
-
-/// Scans a text. Skips anything that is not XML.
-pub(super) fn scan(text: &str) -> Scan {
+/// Scans a text; returns the innermost element that is never closed, by its `<` and name. Skips
+/// anything that is not XML.
+///
+/// # Errors
+///
+/// Fails at what is refused.
+pub(super) fn scan(text: &str) -> Result<Option<Span>, Diagnostic> {
     let mut open: Vec<Span> = Vec::new();
-    let refuse = |refused| Scan {
-        refused: Some(refused),
-        unclosed: None,
-    };
     let mut name_spaces = 0;
     let mut at = 0;
     while let Some(offset) = text[at..].find('<') {
@@ -46,7 +39,7 @@ pub(super) fn scan(text: &str) -> Scan {
             .get(..9)
             .is_some_and(|mark| mark.eq_ignore_ascii_case("<!doctype"))
         {
-            return refuse(doctype(Span::new(start, start + 9)));
+            return Err(doctype(Span::new(start, start + 9)));
         } else if rest.starts_with("</") {
             open.pop();
             until(">")
@@ -60,33 +53,26 @@ pub(super) fn scan(text: &str) -> Scan {
                 name_spaces += 1;
                 if MOST_NAME_SPACES < name_spaces {
                     let span = Span::new(start + at, start + at + name.len());
-                    let message =
-                        format!("more than {MOST_NAME_SPACES} namespaces are not supported");
                     let expected = "elements without prefixes";
-                    return refuse(Diagnostic::error(span, message, expected));
+                    return Err(too_many(span, MOST_NAME_SPACES, "namespaces", expected));
                 }
             }
+            let name = Span::new(start, start + name);
             if MOST_ATTRIBUTES < tag.matches('=').count() {
-                let span = Span::new(start, start + name);
-                let message = format!("more than {MOST_ATTRIBUTES} attributes are not supported");
-                return refuse(Diagnostic::error(span, message, "fewer attributes"));
+                let expected = "fewer attributes";
+                return Err(too_many(name, MOST_ATTRIBUTES, "attributes", expected));
             }
             if !tag.ends_with("/>") {
                 if open.len() == MOST_LEVELS {
-                    let span = Span::new(start, start + name);
-                    let message =
-                        format!("more than {MOST_LEVELS} levels of elements are not supported");
-                    return refuse(Diagnostic::error(span, message, "fewer levels"));
+                    let (what, expected) = ("levels of elements", "fewer levels");
+                    return Err(too_many(name, MOST_LEVELS, what, expected));
                 }
-                open.push(Span::new(start, start + name));
+                open.push(name);
             }
             end
         };
     }
-    Scan {
-        refused: None,
-        unclosed: open.pop(),
-    }
+    Ok(open.pop())
 }
 
 /// The end of a tag, after its `>`, from an offset inside the tag but not between quotes.
@@ -101,6 +87,11 @@ pub(super) fn tag_end(text: &str, from: usize) -> usize {
         }
     }
     text.len()
+}
+
+fn too_many(span: Span, most: usize, what: &str, expected: &str) -> Diagnostic {
+    let message = format!("more than {most} {what} are not supported");
+    Diagnostic::error(span, message, expected)
 }
 
 fn doctype(span: Span) -> Diagnostic {

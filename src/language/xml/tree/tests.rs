@@ -15,7 +15,7 @@ fn names<'t>(text: &'t str, tree: &Tree) -> Vec<&'t str> {
 /// Checks that leaves are not empty and cover the text, except white space between them.
 fn check_leaves(text: &str) {
     let mut at = 0;
-    for leaf in parse(text).leaves(text) {
+    for leaf in Tree::parse(text).leaves(text) {
         assert!(!leaf.is_empty() && at <= leaf.start(), "{text:?}");
         assert!(is_blank(&text[at..leaf.start()]), "{text:?}");
         at = leaf.end();
@@ -30,7 +30,7 @@ fn is_blank(text: &str) -> bool {
 
 /// Checks that spans are correct and that elements nest.
 fn check_tree(text: &str) {
-    let tree = parse(text);
+    let tree = Tree::parse(text);
     assert!(tree.fault.is_none() || tree.elements.is_empty(), "{text:?}");
     for (index, element) in tree.elements.iter().enumerate() {
         let name = element.name.of(text);
@@ -71,7 +71,7 @@ fn check_tree(text: &str) {
 
 #[test]
 fn elements_are_in_document_order() {
-    let tree = parse(EXAMPLE);
+    let tree = Tree::parse(EXAMPLE);
     assert_eq!(tree.fault, None);
     let names = names(EXAMPLE, &tree);
     assert_eq!(names[..5], ["xml", "scene", "object", "scale", "translate"]);
@@ -95,7 +95,7 @@ fn elements_are_in_document_order() {
 #[test]
 fn references_in_values_are_resolved() {
     let text = "\u{FEFF}<?xml version=\"1.0\"?>\r\n<A b = '&lt;&#65;&quot;' c=\"é\nf\" d=''\t/>\r\n<!-- e -->";
-    let tree = parse(text);
+    let tree = Tree::parse(text);
     let said: Vec<_> = tree
         .attributes
         .iter()
@@ -127,7 +127,7 @@ fn references_in_values_are_resolved() {
 #[test]
 fn text_between_tags_is_kept_separately() {
     let text = "<a> 40\n<b>x</b></a>";
-    let tree = parse(text);
+    let tree = Tree::parse(text);
     let words: Vec<_> = tree
         .words
         .iter()
@@ -139,7 +139,7 @@ fn text_between_tags_is_kept_separately() {
 #[test]
 fn elements_are_found_by_position() {
     let text = "<a><b/> <c><d/></c></a>";
-    let tree = parse(text);
+    let tree = Tree::parse(text);
     for (part, expected) in [
         ("b", 1),
         (" ", 0),
@@ -191,7 +191,7 @@ fn malformed_xml_is_reported_at_its_place() {
         ("<a/>\n<b/>", 2, 1, "<", "this is not part of XML"),
         ("<a/>\nb", 2, 1, "b", "this is not part of XML"),
     ] {
-        let tree = parse(text);
+        let tree = Tree::parse(text);
         let fault = tree.fault.as_ref().expect("the text is not XML");
         let at = Position::of(text, fault.span.start());
         let found = (
@@ -210,13 +210,13 @@ fn malformed_xml_is_reported_at_its_place() {
 fn a_hundred_thousand_nested_elements_are_parsed() {
     let levels = 100_000;
     let text = "<a>\n".repeat(levels) + &"</a>\n".repeat(levels);
-    let tree = parse(&text);
+    let tree = Tree::parse(&text);
     assert_eq!(tree.elements.len(), levels);
     assert_eq!(tree.elements[levels - 1].depth as usize, levels - 1);
     assert_eq!(tree.leaves(&text).len(), 2 * levels);
     let middle = Span::at(4 * levels);
     assert_eq!(tree.element_at(middle), Some(levels - 1));
-    let open = parse(&"<a>".repeat(levels));
+    let open = Tree::parse(&"<a>".repeat(levels));
     assert_eq!(
         open.fault.map(|fault| fault.span),
         Some(Span::new(3 * levels - 3, 3 * levels - 1))
@@ -228,7 +228,7 @@ fn excessive_attributes_and_namespaces_are_refused() {
     let attributes: Vec<_> = (0..2000).map(|at| format!("a{at}='1'")).collect();
     let spaces: Vec<_> = (0..2000).map(|at| format!("<a xmlns:b{at}='c'>")).collect();
     for text in [format!("<a {}/>", attributes.join(" ")), spaces.concat()] {
-        let fault = parse(&text).fault.expect("the text is refused");
+        let fault = Tree::parse(&text).fault.expect("the text is refused");
         assert!(
             fault.message.contains("are not supported"),
             "{}",
@@ -303,7 +303,7 @@ proptest! {
         let mut text = format!("<a b={quote}{quote}/>");
         let place = Span::at(6);
         let inverse = apply(&mut text, &[Edit { span: place, text: escaped(&value, quote).into() }]);
-        let tree = parse(&text);
+        let tree = Tree::parse(&text);
         prop_assert_eq!(tree.fault, None);
         prop_assert_eq!(tree.attributes[0].unescaped(&text), &value);
         apply(&mut text, &inverse);

@@ -3,12 +3,9 @@
 use std::collections::HashSet;
 
 use super::textures::{number, tinted, with};
-use super::{attribute, element, open, plain, rgb, word};
+use super::{attribute, begin, element, rgb, value};
 use crate::losses::{Loss, Losses, Of};
-use scene::{
-    Dielectric, Faces, Gloss, Highlight, Maps, Material, Mirror, Pattern, Reflectance, Rgb, Scene,
-    Shadow, Side, Tinted,
-};
+use scene::{Faces, Gloss, Highlight, Material, Pattern, Reflectance, Rgb, Scene, Shadow, Side};
 
 const AMBIENT: Loss = Loss {
     keys: &["ka", "Ka"],
@@ -106,15 +103,13 @@ pub(super) fn write(
     let ambient = scene.ambient_light();
     for ((index, material), name) in (0..).zip(scene.materials.iter()).zip(names) {
         report(Of::Material(index), material, scene, losses);
-        let mut emission = Tinted {
-            colour: material.emission,
-            texture: material.maps.as_ref().and_then(|maps| maps.emission),
-        };
+        let maps = material.maps.as_deref();
+        let (mut emission, mut map) = (material.emission, maps.and_then(|maps| maps.emission));
         if is_baked {
-            emission.colour += ambient * material.ambient.unwrap_or(material.diffuse);
-            emission.texture = material.maps.as_ref().and_then(|maps| maps.ambient);
+            emission += ambient * material.ambient.unwrap_or(material.diffuse);
+            map = maps.and_then(|maps| maps.ambient);
         }
-        one(text, material, name, emission, scene);
+        one(text, material, name, (emission, map), scene);
     }
 }
 
@@ -139,108 +134,80 @@ fn report(of: Of, material: &Material, scene: &Scene, losses: &mut Losses<'_>) {
     if maps.bump.is_some() {
         lose(&BUMP);
     }
-    let texture = maps
-        .diffuse
-        .and_then(|texture| scene.textures.get(texture as usize));
-    if let Some(Pattern::Checker {
-        side: Side::One, ..
-    }) = texture.map(|texture| &texture.pattern)
-    {
+    let texture = maps.diffuse.and_then(|at| scene.textures.get(at as usize));
+    let pattern = texture.map(|texture| &texture.pattern);
+    if matches!(pattern, Some(Pattern::Checker { side, .. }) if *side == Side::One) {
         lose(&LINES);
     }
 }
 
-fn one(text: &mut String, material: &Material, name: &str, emission: Tinted, scene: &Scene) {
+fn one(
+    text: &mut String,
+    material: &Material,
+    name: &str,
+    emission: (Rgb, Option<u32>),
+    scene: &Scene,
+) {
     let maps = material.maps.as_deref().copied().unwrap_or_default();
     let (kind, gloss) = match material.highlight {
         Highlight::Phong(gloss) | Highlight::ModifiedPhong(gloss) => ("phong", gloss),
         Highlight::Blinn(gloss) | Highlight::PlainBlinn(gloss) => ("blinn", gloss),
-        Highlight::None | Highlight::Microfacet { .. } => ("blinn", Gloss::default()),
+        Highlight::None => ("blinn", Gloss::default()),
+        Highlight::Microfacet { .. } => ("microfacet", Gloss::default()),
     };
-    let is_facets = matches!(material.highlight, Highlight::Microfacet { .. });
-    open(text, 4, "material");
-    word(text, "type", if is_facets { "microfacet" } else { kind });
-    word(text, "name", name);
-    text.push_str(">\n");
+    begin(text, "material", kind, Some(name));
+    let (mirror, glass) = (material.mirror, material.dielectric);
+    let diffuse = (material.diffuse, maps.diffuse);
     if let Highlight::Microfacet {
         roughness,
         metallic,
     } = material.highlight
     {
-        microfacet(text, material, [roughness, metallic], &maps, scene);
+        tinted(text, (6, "color"), diffuse, scene);
+        number(text, (6, "roughness"), (roughness, maps.roughness), scene);
+        number(text, (6, "metallic"), (metallic, maps.metallic), scene);
+        element(text, 6, "ior", |text| value(text, glass.index));
+        let transmittance = (glass.tint, maps.dielectric);
+        tinted(text, (6, "transmittance"), transmittance, scene);
     } else {
-        let diffuse = Tinted {
-            colour: material.diffuse,
-            texture: maps.diffuse,
-        };
-        let specular = Tinted {
-            colour: gloss.specular,
-            texture: maps.specular,
-        };
-        tinted(text, 6, "diffuse", diffuse, scene);
-        tinted(text, 6, "specular", specular, scene);
+        tinted(text, (6, "diffuse"), diffuse, scene);
+        let specular = (gloss.specular, maps.specular);
+        tinted(text, (6, "specular"), specular, scene);
         let exponent = (gloss.exponent.max(0.0), maps.exponent);
         number(text, (6, "glossiness"), exponent, scene);
-        mirror(text, &material.mirror, maps.mirror, scene);
-        glass(text, &material.dielectric, maps.dielectric, scene);
+        let reflected = (mirror.tint, maps.mirror);
+        rays(text, "reflection", reflected, (None, mirror.spread), scene);
+        let (refracted, index) = ((glass.tint, maps.dielectric), Some(glass.index));
+        rays(text, "refraction", refracted, (index, glass.spread), scene);
     }
-    if material.dielectric.absorption != Rgb::ZERO {
-        let absorption = plain(material.dielectric.absorption);
-        tinted(text, 6, "absorption", absorption, scene);
+    if glass.absorption != Rgb::ZERO {
+        tinted(text, (6, "absorption"), (glass.absorption, None), scene);
     }
-    if emission.colour != Rgb::ZERO {
-        tinted(text, 6, "emission", emission, scene);
+    if emission.0 != Rgb::ZERO {
+        tinted(text, (6, "emission"), emission, scene);
     }
     text.push_str("    </material>\n");
 }
 
-fn mirror(text: &mut String, mirror: &Mirror, map: Option<u32>, scene: &Scene) {
-    if mirror.tint == Rgb::ZERO {
-        return;
-    }
-    let attributes = |text: &mut String| {
-        rgb(text, mirror.tint);
-        if mirror.spread != 0.0 {
-            attribute(text, "glossiness", mirror.spread);
-        }
-    };
-    with(text, (6, "reflection"), attributes, map, scene);
-}
-
-fn glass(text: &mut String, glass: &Dielectric, map: Option<u32>, scene: &Scene) {
-    if glass.tint == Rgb::ZERO {
-        return;
-    }
-    let attributes = |text: &mut String| {
-        rgb(text, glass.tint);
-        attribute(text, "index", glass.index);
-        if glass.spread != 0.0 {
-            attribute(text, "glossiness", glass.spread);
-        }
-    };
-    with(text, (6, "refraction"), attributes, map, scene);
-}
-
-fn microfacet(
+/// Writes what of reflected or refracted rays is seen, with their index of refraction and spread.
+fn rays(
     text: &mut String,
-    material: &Material,
-    [roughness, metallic]: [f64; 2],
-    maps: &Maps,
+    name: &str,
+    (tint, map): (Rgb, Option<u32>),
+    (index, spread): (Option<f64>, f64),
     scene: &Scene,
 ) {
-    let colour = Tinted {
-        colour: material.diffuse,
-        texture: maps.diffuse,
+    if tint == Rgb::ZERO {
+        return;
+    }
+    let attributes = |text: &mut String| {
+        rgb(text, tint);
+        if let Some(index) = index {
+            attribute(text, "index", index);
+        }
+        if spread != 0.0 {
+            attribute(text, "glossiness", spread);
+        }
     };
-    let transmittance = Tinted {
-        colour: material.dielectric.tint,
-        texture: maps.dielectric,
-    };
-    tinted(text, 6, "color", colour, scene);
-    number(text, (6, "roughness"), (roughness, maps.roughness), scene);
-    number(text, (6, "metallic"), (metallic, maps.metallic), scene);
-    element(text, 6, "ior", |text| {
-        super::value(text, material.dielectric.index);
-    });
-    tinted(text, 6, "transmittance", transmittance, scene);
+    with(text, (6, name), attributes, map, scene);
 }

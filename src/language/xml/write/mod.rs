@@ -15,19 +15,20 @@ use crate::losses::Losses;
 use crate::rendering::spelled;
 use crate::spelling;
 use crate::surroundings::angle;
-use scene::{Camera, Focus, Rgb, Scene, Setting, Size, Tinted};
+use scene::{Camera, Focus, Rgb, Scene, Size};
 
 /// Writes a scene and reports what it loses.
 pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
     let mut text = "<xml>\n  <scene>\n".to_owned();
-    let Setting {
-        background,
-        environment,
-        ..
-    } = scene.setting;
-    for (word, around) in [("background", background), ("environment", environment)] {
+    let setting = &scene.setting;
+    let surroundings = [
+        ("background", setting.background),
+        ("environment", setting.environment),
+    ];
+    for (word, around) in surroundings {
         if around.colour != Rgb::ZERO {
-            textures::tinted(&mut text, 4, word, around, scene);
+            let tint = (around.colour, around.texture);
+            textures::tinted(&mut text, (4, word), tint, scene);
         }
     }
     let is_baked = materials::is_baked(scene, losses);
@@ -36,12 +37,12 @@ pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
     materials::write(&mut text, scene, (&names, is_baked), losses);
     lights::write(&mut text, scene, is_baked, losses);
     text.push_str("  </scene>\n\n");
-    camera(&mut text, scene, angle(scene, losses));
+    camera(&mut text, &scene.camera, angle(scene, losses));
     let settings = spelled(&scene.setting.rendering);
     if !settings.is_empty() {
         element(&mut text, 2, "render", |text| {
             for (key, value) in &settings {
-                word(text, key, value);
+                word(text, key, value.as_str());
             }
         });
     }
@@ -49,7 +50,8 @@ pub(crate) fn write(scene: &Scene, losses: &mut Losses<'_>) -> String {
     text
 }
 
-fn camera(text: &mut String, scene: &Scene, angle: f64) {
+/// Writes a camera with this angle of view.
+pub(super) fn camera(text: &mut String, camera: &Camera, angle: f64) {
     text.push_str("  <camera>\n");
     let Camera {
         eye,
@@ -58,7 +60,7 @@ fn camera(text: &mut String, scene: &Scene, angle: f64) {
         focus,
         size: Size { width, height },
         ..
-    } = scene.camera;
+    } = *camera;
     for (word, vector) in [("position", eye), ("target", target), ("up", up)] {
         element(text, 4, word, |text| xyz(text, vector));
     }
@@ -73,10 +75,29 @@ fn camera(text: &mut String, scene: &Scene, angle: f64) {
 }
 
 /// Writes an empty element, indented by so many blanks.
-fn element(text: &mut String, indent: usize, word: &str, attributes: impl FnOnce(&mut String)) {
+pub(super) fn element(
+    text: &mut String,
+    indent: usize,
+    word: &str,
+    attributes: impl FnOnce(&mut String),
+) {
     open(text, indent, word);
     attributes(text);
     text.push_str("/>\n");
+}
+
+/// Begins an element of a kind, with a name if it has one.
+fn begin(text: &mut String, element: &str, kind: &str, name: Option<&str>) {
+    open(text, 4, element);
+    word(text, "type", kind);
+    word(text, "name", name);
+    text.push_str(">\n");
+}
+
+/// Begins a light.
+pub(super) fn light(text: &mut String, kind: &str, name: Option<&str>, colour: Rgb) {
+    begin(text, "light", kind, name);
+    element(text, 6, "intensity", |text| rgb(text, colour));
 }
 
 /// Begins the tag of an element.
@@ -86,11 +107,11 @@ fn open(text: &mut String, indent: usize, word: &str) {
 }
 
 /// Writes the attribute `value`.
-fn value(text: &mut String, number: f64) {
+pub(super) fn value(text: &mut String, number: f64) {
     attribute(text, "value", number);
 }
 
-pub(super) fn attribute(text: &mut String, name: &str, number: f64) {
+fn attribute(text: &mut String, name: &str, number: f64) {
     text.push(' ');
     text.push_str(name);
     text.push_str("=\"");
@@ -98,8 +119,11 @@ pub(super) fn attribute(text: &mut String, name: &str, number: f64) {
     text.push('"');
 }
 
-/// Writes an attribute. What XML cannot hold becomes a blank.
-pub(super) fn word(text: &mut String, name: &str, word: &str) {
+/// Writes an attribute, if it has a value. What XML cannot hold becomes a blank.
+pub(super) fn word<'w>(text: &mut String, name: &str, word: impl Into<Option<&'w str>>) {
+    let Some(word) = word.into() else {
+        return;
+    };
     let is_foreign = |c: char| match c {
         '\t' | '\n' | '\r' => false,
         '\u{FFFE}' | '\u{FFFF}' => true,
@@ -124,13 +148,5 @@ fn rgb(text: &mut String, colour: Rgb) {
         for (name, number) in ["r", "g", "b"].into_iter().zip(colour.to_array()) {
             attribute(text, name, number);
         }
-    }
-}
-
-/// A colour without texture.
-fn plain(colour: Rgb) -> Tinted {
-    Tinted {
-        colour,
-        texture: None,
     }
 }

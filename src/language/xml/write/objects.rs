@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::transforms::placed;
+use super::transforms::{Map, placed};
 use super::{open, word};
 use crate::approximations::solids;
 use crate::losses::{Loss, Losses, Of};
@@ -33,15 +33,9 @@ pub(super) fn write(text: &mut String, scene: &Scene, names: &[String], losses: 
         let label = losses.label(Of::Object(index));
         let label = label.as_deref();
         if let Shape::Plane(plane) = &object.shape {
-            let numbers = plane.0.numbers();
             let material = Some(&*names[object.material as usize]);
-            one(
-                text,
-                4,
-                ("plane", label, material),
-                numbers.columns(),
-                numbers.origin,
-            );
+            let map = map(&plane.0.numbers());
+            one(text, 4, ("plane", label, material), map);
             continue;
         }
         let mut pieces = 0;
@@ -61,35 +55,28 @@ fn solid_object(
     material: Option<&str>,
     losses: &mut Losses<'_>,
 ) -> usize {
-    let mut ball = |columns, origin| one(text, 4, ("sphere", label, material), columns, origin);
+    let mut ball = |map| one(text, 4, ("sphere", label, material), map);
     match solid {
         Solid::Sphere(sphere) => {
-            ball(DVec3::AXES.map(|axis| sphere.radius * axis), sphere.centre);
+            ball((DVec3::AXES.map(|axis| sphere.radius * axis), sphere.centre));
         }
-        Solid::Ellipsoid(ellipsoid) => {
-            let numbers = ellipsoid.0.numbers();
-            ball(numbers.columns(), numbers.origin);
-        }
+        Solid::Ellipsoid(ellipsoid) => ball(map(&ellipsoid.0.numbers())),
         Solid::Cylinder(cylinder) => {
             losses.add(Of::Object(index), &CYLINDER);
-            let (columns, origin) = filling(&cylinder.0.numbers());
-            ball(columns, origin);
+            ball(filling(&cylinder.0.numbers()));
         }
         Solid::Cone(cone) => {
             losses.add(Of::Object(index), &CONE);
-            let (columns, origin) = filling(&cone.0.numbers());
-            ball(columns, origin);
+            ball(filling(&cone.0.numbers()));
         }
         Solid::Cuboid(cuboid) => {
             losses.add(Of::Object(index), &BOX);
             open(text, 4, "object");
-            if let Some(label) = label {
-                word(text, "name", label);
-            }
+            word(text, "name", label);
             text.push_str(">\n");
             let squares = squares(&cuboid.0.numbers());
-            for (columns, origin) in squares {
-                one(text, 6, ("plane", None, material), columns, origin);
+            for square in squares {
+                one(text, 6, ("plane", None, material), square);
             }
             text.push_str("    </object>\n");
             return squares.len();
@@ -105,20 +92,15 @@ fn one(
     text: &mut String,
     indent: usize,
     (kind, name, material): (&str, Option<&str>, Option<&str>),
-    columns: [DVec3; 3],
-    origin: DVec3,
+    map: Map,
 ) {
     open(text, indent, "object");
     word(text, "type", kind);
-    if let Some(name) = name {
-        word(text, "name", name);
-    }
-    if let Some(material) = material {
-        word(text, "material", material);
-    }
+    word(text, "name", name);
+    word(text, "material", material);
     let before = text.len();
     text.push_str(">\n");
-    placed(text, indent + 2, columns, origin);
+    placed(text, indent + 2, map);
     if text.len() == before + 2 {
         text.truncate(before);
         text.push_str("/>\n");
@@ -128,14 +110,18 @@ fn one(
     text.push_str("</object>\n");
 }
 
+fn map(numbers: &FrameNumbers) -> Map {
+    (numbers.columns(), numbers.origin)
+}
+
 /// The ellipsoid that fills the same box as a unit solid from z = 0 to z = 1.
-fn filling(numbers: &FrameNumbers) -> ([DVec3; 3], DVec3) {
+fn filling(numbers: &FrameNumbers) -> Map {
     let [x, y, z] = numbers.columns();
     ([x, y, 0.5 * z], numbers.origin + 0.5 * z)
 }
 
 /// The faces of a box, each with its outward normal.
-fn squares(numbers: &FrameNumbers) -> [([DVec3; 3], DVec3); 6] {
+fn squares(numbers: &FrameNumbers) -> [Map; 6] {
     let half = numbers.columns().map(|column| 0.5 * column);
     let [x, y, z] = half;
     let centre = numbers.origin + x + y + z;

@@ -4,16 +4,20 @@ use glam::{DAffine3, DVec3};
 
 use super::transforms::placed;
 use super::{element, open, rgb, value, word};
-use scene::{Pattern, Rgb, Scene, Side, Texture, Tinted};
+use scene::{Pattern, Rgb, Scene, Side, Texture};
 
 /// The deepest checkerboards in checkerboards that are written.
 const DEEPEST: usize = 32;
 
-/// Writes a colour.
-pub(super) fn tinted(text: &mut String, indent: usize, name: &str, tinted: Tinted, scene: &Scene) {
-    let texture = tinted.texture.filter(|_| tinted.colour != Rgb::ZERO);
-    let colour = |text: &mut String| rgb(text, tinted.colour);
-    with(text, (indent, name), colour, texture, scene);
+/// Writes a colour with a texture, which only colours other than black have.
+pub(super) fn tinted(
+    text: &mut String,
+    at: (usize, &str),
+    (colour, texture): (Rgb, Option<u32>),
+    scene: &Scene,
+) {
+    let texture = texture.filter(|_| colour != Rgb::ZERO);
+    with(text, at, |text| rgb(text, colour), texture, scene);
 }
 
 /// Writes an element with a texture.
@@ -43,14 +47,15 @@ fn inside(text: &mut String, indent: usize, texture: &Texture, scene: &Scene) {
     let mut inverse = texture.inverse;
     match &texture.pattern {
         Pattern::Image(path) | Pattern::Clamped(path) => {
-            word(text, "texture", path);
+            word(text, "texture", path.as_str());
             text.push_str(">\n");
         }
         Pattern::Checker { squares, side } => {
             word(text, "texture", "checkerboard");
             text.push_str(">\n");
             for (name, square) in ["color1", "color2"].into_iter().zip(squares) {
-                tinted(text, indent + 2, name, *square, scene);
+                let tint = (square.colour, square.texture);
+                tinted(text, (indent + 2, name), tint, scene);
             }
             if *side == Side::One {
                 inverse = DAffine3::from_scale(DVec3::new(0.5, 0.5, 1.0)) * inverse;
@@ -68,7 +73,7 @@ fn inside(text: &mut String, indent: usize, texture: &Texture, scene: &Scene) {
     let transform = inverse.inverse();
     if transform.is_finite() {
         let columns = [transform.x_axis, transform.y_axis, transform.z_axis];
-        placed(text, indent + 2, columns, transform.translation);
+        placed(text, indent + 2, (columns, transform.translation));
     }
 }
 

@@ -8,8 +8,11 @@ use geometry::principal_axes;
 /// The largest difference of the directions of a frame from right angles that is only rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Writes the transforms that give a matrix of these columns, then a translation.
-pub(super) fn placed(text: &mut String, indent: usize, columns: [DVec3; 3], origin: DVec3) {
+/// The columns of a matrix, and a translation after it.
+pub(super) type Map = ([DVec3; 3], DVec3);
+
+/// Writes the transforms that give an affine map.
+pub(super) fn placed(text: &mut String, indent: usize, (columns, origin): Map) {
     let diagonal = DVec3::new(columns[0].x, columns[1].y, columns[2].z);
     if columns == [0, 1, 2].map(|at| diagonal[at] * DVec3::AXES[at]) {
         scaled(text, indent, diagonal);
