@@ -96,9 +96,16 @@ impl Source {
             };
             let (old, factor) = self.vector(&placed);
             let new = moved(motion, old);
-            let [old, new] = [old, new].map(|vector| vector / factor);
-            let new = [0, 1, 2].map(|at| rounded(old[at], new[at], decimals));
-            let changed = self.changed(&placed, &old.to_array(), &new, spelled);
+            let old = self.numbers(&placed);
+            // A factor of 0 would leave it at the origin.
+            let factor = if factor == 0.0 { 1.0 } else { factor };
+            let new = [new.x / factor, new.y / factor, new.z / factor, factor];
+            let new = old
+                .iter()
+                .zip(new)
+                .map(|(old, new)| rounded(*old, new, decimals));
+            let new: Vec<_> = new.collect();
+            let changed = self.changed(&placed, &old, &new, spelled);
             Some(self.edits(&[(&placed, changed)]))
         });
         edits.flatten().collect()

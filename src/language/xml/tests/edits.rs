@@ -261,3 +261,17 @@ fn a_missing_camera_is_written_completely() {
     let expected = "<xml>\n\t<scene/>\n\t<camera>\n\t  <position z=\"5\"/>\n\t  <fov value=\"30\"/>\n\t</camera>\n</xml>\n";
     assert_eq!(edited, expected);
 }
+
+/// A light at a place times 0 is at the origin, whatever the place.
+#[test]
+fn a_light_whose_place_is_times_0_moves() {
+    let text =
+        "<xml><scene><light type='point'><position x='1' y='2' value='0'/></light></scene></xml>";
+    let (source, _) = read(text);
+    let by = crate::Motion::Move(glam::DVec3::new(0.5, 0.0, 3.0));
+    let edits = source.motion(&[Node::Light(0)], &by, 2).expect("it moves");
+    let mut moved = text.to_owned();
+    apply(&mut moved, &edits);
+    let expected = text.replace("x='1' y='2' value='0'", "x='0.5' y='0' value='1' z=\"3\"");
+    assert_eq!(moved, expected);
+}
