@@ -1,8 +1,11 @@
-//! Frames of directions that are made orthonormal.
+//! Frames of directions: along the world's axes, or made orthonormal.
+
+use glam::DVec3;
 
 use super::StructureError;
 use super::form::{orthonormal, rounded};
 use super::schema::position::At;
+use geometry::FrameNumbers;
 
 /// The error for a node without directions.
 pub(super) fn frameless(name: &str) -> StructureError {
@@ -41,4 +44,14 @@ pub(super) enum Lengths {
     Unit,
     /// They stay, since they count.
     Kept,
+}
+
+/// The lengths along x, y and z of a frame of the world's axes in any order.
+pub(super) fn aligned(frame: &FrameNumbers) -> Option<DVec3> {
+    let mut lengths = DVec3::ZERO;
+    for (direction, length) in frame.directions.iter().zip(frame.lengths.to_array()) {
+        let mut axes = DVec3::AXES.iter();
+        lengths[axes.position(|axis| *axis == direction.abs())?] = length;
+    }
+    (0.0 < lengths.min_element()).then_some(lengths)
 }

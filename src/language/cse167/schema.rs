@@ -1,7 +1,7 @@
 //! The commands of `.test`, one slot per row.
 
 use crate::schema::position::words;
-use crate::schema::slots::{choice, colour, number, pixels, place, point, size};
+use crate::schema::slots::{fov, choice, colour, number, pixels, place, point, size};
 use crate::schema::{Category, Field, Kind, Makes, Part, Range, Record, Schema, Slot};
 
 pub(super) static SCHEMA: Schema = Schema {
@@ -40,14 +40,7 @@ pub(super) const CAMERA: Record = Record::new("camera", &["camera"], Makes::View
     point("from", "The position of the camera."),
     point("at", "The point the camera looks at."),
     point("up", "Which way is up in the picture; of any length."),
-    Slot::Field(Field {
-        kind: Kind::Number,
-        allowed: Range::Between(0.0, 180.0),
-        usual: Range::Between(0.0, 180.0),
-        step: 1.0,
-        unit: "degrees",
-        ..Field::point("fov", "The vertical full angle of view.")
-    }),
+    fov(),
 ]);
 
 pub(super) const SIZE: Record = Record::new("size", &["size"], Makes::View, &[pixels("size")]).replaced();

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use glam::{DMat3, DVec3};
 
 use crate::approximations::solids;
+use crate::frame::aligned;
 use crate::losses::{Loss, Losses, Of};
 use crate::rendering::words;
 use crate::spelling::{number, numbers, vector};
@@ -371,16 +372,6 @@ impl Writer<'_> {
         }
         self.vertices += vertices.len();
     }
-}
-
-/// The lengths along x, y and z of a frame of the world's axes in any order.
-fn aligned(frame: &FrameNumbers) -> Option<DVec3> {
-    let mut lengths = DVec3::ZERO;
-    for (direction, length) in frame.directions.iter().zip(frame.lengths.to_array()) {
-        let mut axes = DVec3::AXES.iter();
-        lengths[axes.position(|axis| *axis == direction.abs())?] = length;
-    }
-    (0.0 < lengths.min_element()).then_some(lengths)
 }
 
 /// The colours and the shininess that stand for a material.

@@ -1,8 +1,8 @@
 //! The records of `.ray`, one slot per row.
 
 use crate::schema::layout::{Layout, Unit};
-use crate::schema::slots::{colour, direction, edge, pixels, place, point, radius, share, share_of_light};
-use crate::schema::{Category, Field, Kind, Makes, Range, Record, Schema, Slot};
+use crate::schema::slots::{fov, colour, direction, edge, pixels, place, point, radius, share, share_of_light};
+use crate::schema::{Category, Field, Makes, Range, Record, Schema, Slot};
 use text::nearest_word;
 
 pub(super) static SCHEMA: Schema = Schema {
@@ -22,14 +22,7 @@ pub(super) const VIEW: Record = Record::new("view", &[], Makes::View, &[
     point("eye", "The position of the camera."),
     point("target", "The point the camera looks at."),
     Slot::Field(Field::direction("up", "Which way is up in the picture; of any length.")),
-    Slot::Field(Field {
-        kind: Kind::Number,
-        allowed: Range::Between(0.0, 180.0),
-        usual: Range::Between(0.0, 180.0),
-        step: 1.0,
-        unit: "degrees",
-        ..Field::point("fov", "The vertical full angle of view.")
-    }),
+    fov(),
     pixels("size"),
 ]);
 

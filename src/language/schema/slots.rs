@@ -103,3 +103,13 @@ pub(crate) const fn pixels(key: &'static str) -> Slot {
 pub(crate) const fn size(key: &'static str, doc: &'static str) -> Slot {
     Slot::Field(Field::size(key, doc))
 }
+
+/// The vertical full angle of view.
+pub(crate) const fn fov() -> Slot {
+    let allowed = Range::Between(0.0, 180.0);
+    Slot::Field(Field {
+        allowed,
+        unit: "degrees",
+        ..Field::number("fov", allowed, 1.0, "The vertical full angle of view.")
+    })
+}

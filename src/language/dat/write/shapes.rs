@@ -5,6 +5,7 @@ use std::fmt::Write;
 use glam::DVec3;
 
 use super::camera::near;
+use crate::frame::aligned;
 use crate::losses::{Loss, Losses, Of};
 use crate::spelling::groups;
 use geometry::{FrameNumbers, Solid, Sphere, normalise};
@@ -83,18 +84,6 @@ pub(super) fn write(
         Solid::Quadric(_) => return,
     }
     text.push('\n');
-}
-
-/// The lengths along x, y and z of a frame of the world's axes in any order.
-fn aligned(frame: &FrameNumbers) -> Option<DVec3> {
-    let mut lengths = DVec3::ZERO;
-    for (direction, length) in frame.directions.iter().zip(frame.lengths.to_array()) {
-        let axis = DVec3::AXES
-            .iter()
-            .position(|axis| *axis == direction.abs())?;
-        lengths[axis] = length;
-    }
-    (0.0 < lengths.min_element()).then_some(lengths)
 }
 
 /// Whether a cylinder is circular and its axis perpendicular to its base.
