@@ -43,6 +43,7 @@
 //! | [`watch`] | reports changes of paths on disk | what the files contain |
 //! | [`ui`] | the terminal: the only room that knows ratatui and crossterm; a mode is a folder of `app`, a command a row of `app/command`, a key a row of its room | how pixels are computed |
 //! | [`batch`] | headless work: check, render, merge, show, compare, explain, convert, bench | terminals |
+//! | [`lsp`] | an editor's questions about a text: diagnostics, hover, symbols, rename, colours | the interface |
 //! | [`config`] | the user's configuration: reads, checks and prints it | what the settings do |
 //! | [`cli`] | arguments and exit codes | how the work is done |
 //!
@@ -80,6 +81,7 @@ pub use file;
 pub use geometry;
 pub use image_file;
 pub use language;
+pub use lsp;
 pub use memory;
 pub use obj;
 pub use render;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use halflight::cli::{self, Command, Purpose, Stop};
 use halflight::memory::{self, Allocator};
 use halflight::text::{Diagnostic, visible, without_codes};
-use halflight::{batch, config, ui};
+use halflight::{batch, config, lsp, ui};
 
 #[global_allocator]
 static ALLOCATOR: Allocator = Allocator;
@@ -25,12 +25,24 @@ fn main() -> ExitCode {
         Ok(Command::Compare(work)) => cli::comparison_exit_code(&batch::compare(&work)),
         Ok(Command::Explain(work)) => cli::exit_code(&batch::explain(&work)),
         Ok(Command::Convert(work)) => cli::exit_code(&batch::convert(&work)),
+        Ok(Command::Lsp) => serve(),
         Ok(Command::Doctor(scene)) => print(&Stop {
             text: ui::doctor::examine(scene.as_deref()),
             code: cli::DONE,
         }),
         Err(stop) => print(&stop),
     })
+}
+
+/// Serves an editor. What ends the session too early goes to standard error, which editors log.
+fn serve() -> u8 {
+    match lsp::serve(io::stdin(), io::stdout().lock()) {
+        Ok(()) => cli::DONE,
+        Err(error) => {
+            eprintln!("halflight lsp: {error}");
+            cli::FAILED
+        }
+    }
 }
 
 /// Makes a write beyond the file size limit an ordinary error. By default it kills the process,

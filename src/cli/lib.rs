@@ -19,6 +19,7 @@ use std::ffi::{OsStr, OsString};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -91,6 +92,8 @@ pub enum Command {
     Doctor(Option<PathBuf>),
     /// Report errors and warnings in scenes.
     Check(Check),
+    /// Serve an editor on standard input and output.
+    Lsp,
 }
 
 /// A text to print instead of running a command, and the exit code.
@@ -153,6 +156,11 @@ fn parse_arguments(arguments: impl IntoIterator<Item = OsString>) -> Result<Comm
             reading: reading.into_reading(),
         })),
         Some(Subcommands::Doctor { scene }) => Ok(Command::Doctor(scene)),
+        Some(Subcommands::Lsp { print_config: None }) => Ok(Command::Lsp),
+        Some(Subcommands::Lsp { print_config }) => {
+            let lines = print_config.map_or("", lsp::Editor::lines);
+            Err(Stop::requested(lines.as_bytes()))
+        }
         Some(Subcommands::Completions { shell }) => Err(Stop::requested(&completions(shell))),
         Some(Subcommands::Man) => Err(Stop::requested(&manual::page(Cli::command()))),
         None => {
@@ -311,6 +319,7 @@ Examples:
   halflight render scene.ray -o scene.bmp         render a picture
   halflight render scene.ray -o - --format ppm | ssh far 'cat > scene.ppm'
   halflight check scenes/*.ray                    report errors and warnings
+  halflight lsp --print-config helix              let an editor show errors and meanings
   halflight doctor                                report what was detected, and why
   halflight scene.ray --keys a.keys --dump-frame a.png    draw the screen after these keys
 
@@ -362,12 +371,28 @@ enum Subcommands {
     },
     /// Print the manual page
     Man,
+    /// Tell an editor what its text means, by the Language Server Protocol on standard input and output
+    Lsp {
+        /// Print the lines to add to an editor's configuration instead
+        #[arg(long, value_name = "EDITOR", value_parser = editors())]
+        print_config: Option<lsp::Editor>,
+    },
     /// Report what was detected about the terminal and the machine, and why
     Doctor {
         /// Scene file whose folder to examine [default: the current folder]
         #[arg(value_name = "SCENE")]
         scene: Option<PathBuf>,
     },
+}
+
+/// Parses the name of an editor.
+fn editors() -> impl TypedValueParser<Value = lsp::Editor> {
+    let names = lsp::Editor::ALL.map(lsp::Editor::name);
+    let find = |name: String| {
+        let mut all = lsp::Editor::ALL.into_iter();
+        all.find(|editor| editor.name() == name).ok_or("unknown")
+    };
+    PossibleValuesParser::new(names).try_map(find)
 }
 
 /// A shell that completes words.

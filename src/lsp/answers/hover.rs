@@ -1,0 +1,99 @@
+//! What a field is, and what its value means.
+
+use language::schema::{Field, Kind};
+use serde_json::{Value, json};
+use text::Span;
+
+use super::colours;
+use super::names;
+use crate::document::{Document, Place};
+
+/// The answer to `textDocument/hover`.
+pub(crate) fn at(document: &Document, at: usize) -> Value {
+    let Some(place) = document.place(at) else {
+        return of_node(document, at);
+    };
+    let (field, source) = (place.field(), &document.source);
+    let component = field.kind.component_names()[place.component];
+    let space = if component.is_empty() { "" } else { " " };
+    let name = source.name(place.node);
+    let mut said = format!(
+        "**{name}** · `{}{space}{component}`\n\n{}",
+        field.key, field.doc
+    );
+    said += &format!("\n\n{}", allowed(field));
+    for words in [value(document, &place), users(document, &place)]
+        .into_iter()
+        .flatten()
+    {
+        said += &format!("\n\n{words}");
+    }
+    answer(document, place.span, said)
+}
+
+/// A node's name and comment, where no field is.
+fn of_node(document: &Document, at: usize) -> Value {
+    let Some(node) = document.source.node_at(Span::at(at)) else {
+        return Value::Null;
+    };
+    let mut said = format!("**{}**", document.source.name(node));
+    if let Some(comment) = document.source.comment(node) {
+        said += &format!(" · {comment}");
+    }
+    let span = document.source.span(node);
+    let own = if span.touches(Span::at(at)) {
+        span
+    } else {
+        Span::at(at)
+    };
+    answer(document, own, said)
+}
+
+fn answer(document: &Document, span: Span, said: String) -> Value {
+    json!({
+        "contents": { "kind": "markdown", "value": said },
+        "range": document.range(span),
+    })
+}
+
+/// The permitted values, with their unit.
+fn allowed(field: &Field) -> String {
+    match field.kind {
+        Kind::Choice(words) => words.join(" · "),
+        Kind::Reference(category) => format!("the ID of a {}", category.word()),
+        Kind::Name(category) => format!("the name of a {}", category.word()),
+        Kind::Word => "a word".to_owned(),
+        _ if field.unit.is_empty() => field.allowed.words(),
+        _ => format!("{}, {}", field.allowed.words(), field.unit),
+    }
+}
+
+/// A value in other words: a colour as it is shown, an ID or a name as what it names.
+fn value(document: &Document, place: &Place) -> Option<String> {
+    match place.field().kind {
+        Kind::Colour => {
+            let colour = colours::stated(document, &place.placed)?;
+            let bytes = colour.map(|part| (part.clamp(0.0, 1.0) * 255.0).round() as u8);
+            let [red, green, blue] = bytes;
+            Some(format!("`#{red:02x}{green:02x}{blue:02x}`"))
+        }
+        Kind::Reference(_) | Kind::Name(_) => {
+            let node = names::target(document, place)?;
+            let comment = document.source.comment(node);
+            let comment = comment.map_or_else(String::new, |comment| format!(" · {comment}"));
+            Some(format!("{}{comment}", document.source.name(node)))
+        }
+        _ => None,
+    }
+}
+
+/// Who else changes with the value.
+fn users(document: &Document, place: &Place) -> Option<String> {
+    match document.source.users(place.node) {
+        0 | 1 => None,
+        count => Some(format!(
+            "{} is used {count} times",
+            document.source.name(place.node)
+        )),
+    }
+}

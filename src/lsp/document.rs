@@ -1,0 +1,187 @@
+//! An open text: what the editor shows, lowered.
+
+use std::collections::HashSet;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use assets::Assets;
+use language::schema::Field;
+use language::{FieldSpans, Language, Lowered, Node, Source};
+use serde_json::{Value, json};
+use text::{Edit, Findings, Span};
+
+use crate::positions::{Encoding, Lines};
+
+/// The maximum length of a text whose nodes are listed, in bytes. Longer ones are checked only.
+const MOST_SERVED: usize = 16 << 20;
+
+/// A text that the editor has open.
+#[derive(Debug)]
+pub(crate) struct Document {
+    pub(crate) uri: String,
+    /// The file that it is, or would be.
+    path: PathBuf,
+    pub(crate) version: Value,
+    pub(crate) source: Source,
+    lines: Lines,
+    encoding: Encoding,
+    pub(crate) findings: Findings,
+    /// Whether it is a scene by content; it stays one while it is edited.
+    pub(crate) is_scene: bool,
+    assets: Assets,
+}
+
+/// A field and one of its components, with its place.
+pub(crate) struct Place {
+    pub(crate) node: Node,
+    pub(crate) placed: FieldSpans,
+    pub(crate) component: usize,
+    pub(crate) span: Span,
+}
+
+impl Place {
+    pub(crate) fn field(&self) -> &'static Field {
+        self.placed.field
+    }
+}
+
+impl Document {
+    pub(crate) fn new(
+        uri: String,
+        (path, language): (PathBuf, Language),
+        text: String,
+        encoding: Encoding,
+    ) -> Self {
+        let mut document = Self {
+            uri,
+            path,
+            version: Value::Null,
+            lines: Lines::of(&text),
+            source: Source::new(language, Arc::new(text)),
+            encoding,
+            findings: Findings::default(),
+            is_scene: language == Language::Ray,
+            assets: Assets::new(&[]),
+        };
+        document.lower();
+        document
+    }
+
+    pub(crate) fn text(&self) -> &str {
+        self.source.text()
+    }
+
+    /// Takes a change of the editor's; false if it makes no sense.
+    pub(crate) fn change(&mut self, change: &Value) -> bool {
+        let Some(text) = change.get("text").and_then(Value::as_str) else {
+            return false;
+        };
+        let span = match change.get("range") {
+            None | Some(Value::Null) => Some(Span::new(0, self.text().len())),
+            Some(range) => self.span(range),
+        };
+        let Some(span) = span else {
+            return false;
+        };
+        let edit = Edit {
+            span,
+            text: text.to_owned(),
+        };
+        self.source.change(&[edit]);
+        self.lines = Lines::of(self.source.text());
+        true
+    }
+
+    /// Finds the nodes of the text and what is wrong with it.
+    pub(crate) fn lower(&mut self) {
+        self.findings = match self.assets.lower(&self.path, &mut self.source) {
+            Ok((lowered, _)) => lowered.diagnostics,
+            Err(reason) => Lowered::refused(&reason).diagnostics,
+        };
+        let is_something = |node: Node| matches!(node, Node::Object(_) | Node::Light(_));
+        self.is_scene |= self.source.nodes().iter().any(is_something);
+    }
+
+    /// The offset of a position in the parameters of a request.
+    pub(crate) fn offset(&self, position: &Value) -> Option<usize> {
+        self.lines.offset(self.text(), position, self.encoding)
+    }
+
+    pub(crate) fn span(&self, range: &Value) -> Option<Span> {
+        self.lines.span(self.text(), range, self.encoding)
+    }
+
+    pub(crate) fn position(&self, at: usize) -> Value {
+        self.lines.position(self.text(), at, self.encoding)
+    }
+
+    pub(crate) fn range(&self, span: Span) -> Value {
+        self.lines.range(self.text(), span, self.encoding)
+    }
+
+    /// The number of the line that an offset is on, from 0.
+    pub(crate) fn line(&self, at: usize) -> usize {
+        self.lines.line(at)
+    }
+
+    /// The length of a part of a line, as the client counts.
+    pub(crate) fn length(&self, span: Span) -> usize {
+        self.encoding.length(span.of(self.text()))
+    }
+
+    /// A span as a place that an editor can go to.
+    pub(crate) fn location(&self, span: Span) -> Value {
+        json!({ "uri": self.uri, "range": self.range(span) })
+    }
+
+    /// Edits as changes of this document.
+    pub(crate) fn workspace_edit(&self, edits: &[Edit]) -> Value {
+        let edits: Vec<_> = edits.iter().map(|edit| self.text_edit(edit)).collect();
+        json!({ "changes": { &self.uri: edits } })
+    }
+
+    pub(crate) fn text_edit(&self, edit: &Edit) -> Value {
+        json!({ "range": self.range(edit.span), "newText": edit.text })
+    }
+
+    /// Whether its nodes are asked for: not in long texts.
+    pub(crate) fn is_served(&self) -> bool {
+        self.is_scene && self.text().len() <= MOST_SERVED
+    }
+
+    /// The field that states something at an offset.
+    pub(crate) fn place(&self, at: usize) -> Option<Place> {
+        let node = self.source.node_at(Span::at(at))?;
+        let mut fields = self.source.fields(node).into_iter();
+        fields.find_map(|placed| {
+            let is_here = |component: &usize| {
+                let is_stated = placed.default_of(*component).is_none();
+                is_stated && placed.spans[*component].touches(Span::at(at))
+            };
+            let component = (0..placed.spans.len()).find(is_here)?;
+            let span = placed.spans[component];
+            Some(Place {
+                node,
+                placed,
+                component,
+                span,
+            })
+        })
+    }
+
+    /// The fields that the text states of nodes that overlap a span, each place once.
+    pub(crate) fn stated_in(&self, span: Span) -> impl Iterator<Item = FieldSpans> {
+        let nodes = self.source.nodes_in(span).into_iter();
+        let fields = nodes.flat_map(|node| self.source.fields(node));
+        let mut known = HashSet::new();
+        fields.filter(move |placed| {
+            let mut components = 0..placed.spans.len();
+            let is_stated = components.all(|at| placed.default_of(at).is_none());
+            is_stated
+                && placed
+                    .spans
+                    .first()
+                    .is_some_and(|first| known.insert(*first))
+        })
+    }
+}

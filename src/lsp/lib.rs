@@ -1,0 +1,80 @@
+//! An editor's questions about a scene's text, by the Language Server Protocol 3.17. Knows no interface.
+//!
+//! One inbox, one thread that answers, in the order of the messages; another thread reads.
+
+mod answers;
+mod document;
+mod positions;
+mod server;
+mod setup;
+#[cfg(test)]
+mod tests;
+mod uri;
+mod wire;
+
+use std::io::{self, BufReader, Read, Write};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Instant;
+
+use serde_json::Value;
+
+use server::{Next, Server};
+use wire::Broken;
+
+pub use setup::Editor;
+
+/// Why a session ended otherwise than by the client's wish.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The stream of messages cannot be read on.
+    #[error("{0}")]
+    Broken(String),
+    /// An answer cannot be written.
+    #[error("cannot answer: {0}")]
+    Unanswered(#[from] io::Error),
+    /// The client ended the session without `shutdown`.
+    #[error("the editor left without a `shutdown` request")]
+    Quit,
+}
+
+/// Serves one editor until it ends the session.
+///
+/// # Errors
+///
+/// Fails if the session does not end as the protocol says.
+pub fn serve(input: impl Read + Send + 'static, output: impl Write) -> Result<(), Error> {
+    let (sender, inbox) = mpsc::channel();
+    // It ends with the stream, or with the process.
+    thread::spawn(move || {
+        let mut input = BufReader::new(input);
+        loop {
+            let message = wire::read(&mut input).transpose();
+            let is_last = !matches!(message, Some(Ok(_)));
+            if sender.send(message).is_err() || is_last {
+                return;
+            }
+        }
+    });
+    let mut server = Server::new(output);
+    loop {
+        let message: Option<Result<Value, Broken>> = match server.next_due() {
+            None => inbox.recv().ok().flatten(),
+            Some(due) => match inbox.recv_timeout(due.saturating_duration_since(Instant::now())) {
+                Ok(message) => message,
+                Err(RecvTimeoutError::Timeout) => {
+                    server.do_due(Instant::now())?;
+                    continue;
+                }
+                Err(RecvTimeoutError::Disconnected) => None,
+            },
+        };
+        let message = message.ok_or(Error::Quit)?;
+        let message = message.map_err(|broken| Error::Broken(broken.to_string()))?;
+        match server.take(&message)? {
+            Next::Message => {}
+            Next::End => return Ok(()),
+            Next::Quit => return Err(Error::Quit),
+        }
+    }
+}

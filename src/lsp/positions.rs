@@ -1,0 +1,220 @@
+//! Offsets in a text as lines and characters, counted as the client counts.
+
+use serde_json::{Value, json};
+use text::{Span, line_end};
+
+/// What a client counts as one character.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Encoding {
+    /// Bytes.
+    Utf8,
+    /// Code units of UTF-16, what all clients know.
+    #[default]
+    Utf16,
+    /// Characters.
+    Utf32,
+}
+
+impl Encoding {
+    /// Its name in the protocol.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Utf8 => "utf-8",
+            Self::Utf16 => "utf-16",
+            Self::Utf32 => "utf-32",
+        }
+    }
+
+    /// The encoding to use with a client that knows these: bytes if possible.
+    pub(crate) fn of_client(known: &Value) -> Self {
+        let names = known.as_array().map_or(&[][..], Vec::as_slice);
+        let knows = |encoding: &Self| names.iter().any(|name| name == encoding.name());
+        let found = [Self::Utf8, Self::Utf32].into_iter().find(knows);
+        found.unwrap_or_default()
+    }
+
+    /// The length of a text without line ends.
+    pub(crate) fn length(self, text: &str) -> usize {
+        match self {
+            Self::Utf8 => text.len(),
+            Self::Utf16 => text.chars().map(char::len_utf16).sum(),
+            Self::Utf32 => text.chars().count(),
+        }
+    }
+
+    /// The offset of a character of a line; within a character, its start; its end beyond the last.
+    fn offset(self, line: &str, character: usize) -> usize {
+        let mut left = character;
+        for (at, c) in line.char_indices() {
+            let length = match self {
+                Self::Utf8 => c.len_utf8(),
+                Self::Utf16 => c.len_utf16(),
+                Self::Utf32 => 1,
+            };
+            if left < length {
+                return at;
+            }
+            left -= length;
+        }
+        line.len()
+    }
+}
+
+/// Where the lines of a text begin. CR LF, LF and CR end a line, as in the protocol.
+#[derive(Clone, Debug)]
+pub(crate) struct Lines(Vec<u32>);
+
+impl Lines {
+    pub(crate) fn of(text: &str) -> Self {
+        let mut starts = vec![0];
+        let mut at = 0;
+        loop {
+            let end = line_end(text, at);
+            if end == text.len() {
+                return Self(starts);
+            }
+            at = end + 1;
+            if text.as_bytes()[end..].starts_with(b"\r\n") {
+                at += 1;
+            }
+            starts.push(at as u32);
+        }
+    }
+
+    /// The number of the line that an offset is on, from 0.
+    pub(crate) fn line(&self, at: usize) -> usize {
+        self.0.partition_point(|start| *start as usize <= at) - 1
+    }
+
+    /// A line without its end.
+    fn text<'t>(&self, text: &'t str, line: usize) -> (usize, &'t str) {
+        let start = self.0[line] as usize;
+        (start, &text[start..line_end(text, start)])
+    }
+
+    /// The offset of a position: the end of the line if that is shorter, the end of the text if it has
+    /// fewer lines.
+    pub(crate) fn offset(&self, text: &str, position: &Value, encoding: Encoding) -> Option<usize> {
+        let number = |key: &str| position.get(key)?.as_u64();
+        let (line, character) = (number("line")?, number("character")?);
+        let Some(line) = usize::try_from(line)
+            .ok()
+            .filter(|line| *line < self.0.len())
+        else {
+            return Some(text.len());
+        };
+        let (start, own) = self.text(text, line);
+        let character = usize::try_from(character).unwrap_or(usize::MAX);
+        Some(start + encoding.offset(own, character))
+    }
+
+    /// The position of an offset.
+    pub(crate) fn position(&self, text: &str, at: usize, encoding: Encoding) -> Value {
+        let line = self.line(at);
+        let (start, own) = self.text(text, line);
+        let before = &own[..own.len().min(at - start)];
+        json!({ "line": line, "character": encoding.length(before) })
+    }
+
+    /// The range of a span.
+    pub(crate) fn range(&self, text: &str, span: Span, encoding: Encoding) -> Value {
+        let [start, end] = [span.start(), span.end()].map(|at| self.position(text, at, encoding));
+        json!({ "start": start, "end": end })
+    }
+
+    /// The span of a range.
+    pub(crate) fn span(&self, text: &str, range: &Value, encoding: Encoding) -> Option<Span> {
+        let at = |key: &str| self.offset(text, range.get(key)?, encoding);
+        let (start, end) = (at("start")?, at("end")?);
+        (start <= end).then(|| Span::new(start, end))
+    }
+}
+
+/// The word around a place: without white space, quotes and brackets.
+pub(crate) fn word_at(text: &str, at: usize) -> Span {
+    let is_word = |c: char| !c.is_whitespace() && !"\"'<>/=#\u{FEFF}".contains(c);
+    let before = text[..at].rfind(|c| !is_word(c));
+    let start = before.map_or(0, |found| {
+        found + text[found..].chars().next().map_or(0, char::len_utf8)
+    });
+    let end = text[at..]
+        .find(|c| !is_word(c))
+        .map_or(text.len(), |found| at + found);
+    Span::new(start, end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [Encoding; 3] = [Encoding::Utf8, Encoding::Utf16, Encoding::Utf32];
+
+    fn at(line: u64, character: u64) -> Value {
+        json!({ "line": line, "character": character })
+    }
+
+    #[test]
+    fn positions_are_counted_as_the_client_counts() {
+        // A mark, a tab, a character of two code units, line ends of all kinds.
+        let text = "\u{FEFF}a\té\u{1F600}b\r\nc\r\rd\n";
+        let lines = Lines::of(text);
+        let b = text.find('b').expect("it is there");
+        for (encoding, line, character, offset) in [
+            (Encoding::Utf8, 0, 11, b),
+            (Encoding::Utf16, 0, 6, b),
+            (Encoding::Utf32, 0, 5, b),
+            // Within a character, and past the end of a line.
+            (Encoding::Utf16, 0, 5, b - 4),
+            (Encoding::Utf8, 0, 8, b - 4),
+            (Encoding::Utf16, 0, 99, b + 1),
+            (Encoding::Utf16, 1, 1, b + 4),
+            (Encoding::Utf16, 2, 0, b + 5),
+            (Encoding::Utf16, 3, 0, b + 6),
+            (Encoding::Utf16, 4, 0, text.len()),
+            (Encoding::Utf16, 99, 3, text.len()),
+        ] {
+            assert_eq!(
+                lines.offset(text, &at(line, character), encoding),
+                Some(offset),
+                "{encoding:?} {line}:{character}"
+            );
+        }
+        assert_eq!(
+            lines.offset(text, &json!({ "line": 1 }), Encoding::Utf16),
+            None
+        );
+        for encoding in ALL {
+            for (offset, _) in text.char_indices().filter(|(_, c)| !"\r\n".contains(*c)) {
+                let position = lines.position(text, offset, encoding);
+                assert_eq!(lines.offset(text, &position, encoding), Some(offset));
+            }
+        }
+    }
+
+    #[test]
+    fn the_best_encoding_that_the_client_knows_is_used() {
+        for (known, expected) in [
+            (json!(null), Encoding::Utf16),
+            (json!(["utf-16"]), Encoding::Utf16),
+            (json!(["utf-16", "utf-32"]), Encoding::Utf32),
+            (json!(["utf-16", "utf-8"]), Encoding::Utf8),
+            (json!([3, "ucs-2"]), Encoding::Utf16),
+        ] {
+            assert_eq!(Encoding::of_client(&known), expected, "{known}");
+        }
+    }
+
+    #[test]
+    fn words_end_at_blanks_quotes_and_brackets() {
+        for (text, at, word) in [
+            ("mat ID 12 x", 8, "12"),
+            ("mat ID 12", 9, "12"),
+            ("name=\"a b\"", 6, "a"),
+            ("<é/>", 1, "é"),
+            ("", 0, ""),
+            (" ", 1, ""),
+        ] {
+            assert_eq!(word_at(text, at).of(text), word, "{text} {at}");
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! The lines that make an editor start the server.
+
+/// An editor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Editor {
+    /// Helix, in `languages.toml`.
+    Helix,
+    /// Neovim 0.7 or later, in `init.lua`.
+    Neovim,
+    /// Vim 9 with yegappan/lsp, in `vimrc`.
+    Vim,
+    /// Emacs 29 or later with Eglot, in `init.el`.
+    Emacs,
+    /// Kakoune with kak-lsp, in `kakrc`.
+    Kakoune,
+}
+
+impl Editor {
+    /// All editors.
+    pub const ALL: [Self; 5] = [
+        Self::Helix,
+        Self::Neovim,
+        Self::Vim,
+        Self::Emacs,
+        Self::Kakoune,
+    ];
+
+    /// Its name in lower case.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Helix => "helix",
+            Self::Neovim => "neovim",
+            Self::Vim => "vim",
+            Self::Emacs => "emacs",
+            Self::Kakoune => "kakoune",
+        }
+    }
+
+    /// The lines to add to its configuration.
+    pub const fn lines(self) -> &'static str {
+        match self {
+            Self::Helix => HELIX,
+            Self::Neovim => NEOVIM,
+            Self::Vim => VIM,
+            Self::Emacs => EMACS,
+            Self::Kakoune => KAKOUNE,
+        }
+    }
+}
+
+const HELIX: &str = r#"# languages.toml
+[language-server.halflight]
+command = "halflight"
+args = ["lsp"]
+
+[[language]]
+name = "halflight"
+scope = "source.halflight"
+file-types = ["ray", "dat", "test"]
+comment-token = "//"
+roots = []
+language-servers = ["halflight"]
+
+[[language]]
+name = "xml"
+language-servers = ["halflight"]
+"#;
+
+const NEOVIM: &str = r#"-- init.lua
+vim.api.nvim_create_autocmd({ "BufReadPost", "BufNewFile" }, {
+  pattern = { "*.ray", "*.dat", "*.test", "*.xml" },
+  callback = function(event)
+    local client = vim.lsp.start_client({
+      name = "halflight",
+      cmd = { "halflight", "lsp" },
+      root_dir = vim.fn.getcwd(),
+    })
+    vim.lsp.buf_attach_client(event.buf, client)
+  end,
+})
+"#;
+
+const VIM: &str = r#"" vimrc, with github.com/yegappan/lsp
+autocmd BufRead,BufNewFile *.ray,*.dat,*.test setfiletype halflight
+autocmd User LspSetup call LspAddServer([#{
+  \ name: 'halflight', filetype: ['halflight', 'xml'], path: 'halflight', args: ['lsp'] }])
+"#;
+
+const EMACS: &str = r#";; init.el
+(define-derived-mode halflight-mode prog-mode "Halflight")
+(add-to-list 'auto-mode-alist '("\\.\\(ray\\|dat\\|test\\)\\'" . halflight-mode))
+(with-eval-after-load 'eglot
+  (add-to-list 'eglot-server-programs
+               '((halflight-mode nxml-mode) . ("halflight" "lsp"))))
+(add-hook 'halflight-mode-hook #'eglot-ensure)
+"#;
+
+const KAKOUNE: &str = r#"# kakrc, with kak-lsp
+hook global BufCreate .*[.](ray|dat|test) %{ set-option buffer filetype halflight }
+hook -group lsp-halflight global BufSetOption filetype=(halflight|xml) %{
+  set-option buffer lsp_servers %{
+    [halflight]
+    command = "halflight"
+    args = ["lsp"]
+    root_globs = []
+  }
+}
+"#;
