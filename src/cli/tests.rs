@@ -202,7 +202,7 @@ fn wrong_arguments_are_rejected_with_a_reason() {
         (
             "halflight a b",
             "unexpected second scene b: only one can be opened; the commands are render, merge, show, \
-             compare, explain, convert, bench, check, completions, man and doctor",
+             compare, explain, convert, bench, check, completions, man, lsp and doctor",
         ),
         (
             "halflight --color blue a",

@@ -11,6 +11,7 @@ mod frames;
 mod grading;
 mod keys;
 mod limits;
+mod lsp;
 mod meshes;
 mod metadata;
 mod parts;
