@@ -67,16 +67,21 @@ language-servers = ["halflight"]
 "#;
 
 const NEOVIM: &str = r#"-- init.lua
+local function halflight(event)
+  local config = {
+    name = "halflight",
+    cmd = { "halflight", "lsp" },
+    root_dir = vim.fn.getcwd(),
+  }
+  if vim.lsp.start then
+    vim.lsp.start(config, { bufnr = event.buf })
+  else -- before 0.8
+    vim.lsp.buf_attach_client(event.buf, vim.lsp.start_client(config))
+  end
+end
 vim.api.nvim_create_autocmd({ "BufReadPost", "BufNewFile" }, {
   pattern = { "*.ray", "*.dat", "*.test", "*.xml" },
-  callback = function(event)
-    local client = vim.lsp.start_client({
-      name = "halflight",
-      cmd = { "halflight", "lsp" },
-      root_dir = vim.fn.getcwd(),
-    })
-    vim.lsp.buf_attach_client(event.buf, client)
-  end,
+  callback = halflight,
 })
 "#;
 
