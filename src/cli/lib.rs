@@ -156,8 +156,10 @@ fn parse_arguments(arguments: impl IntoIterator<Item = OsString>) -> Result<Comm
             reading: reading.into_reading(),
         })),
         Some(Subcommands::Doctor { scene }) => Ok(Command::Doctor(scene)),
-        Some(Subcommands::Lsp { print_config: None }) => Ok(Command::Lsp),
-        Some(Subcommands::Lsp { print_config }) => {
+        Some(Subcommands::Lsp {
+            print_config: None, ..
+        }) => Ok(Command::Lsp),
+        Some(Subcommands::Lsp { print_config, .. }) => {
             let lines = print_config.map_or("", lsp::Editor::lines);
             Err(Stop::requested(lines.as_bytes()))
         }
@@ -376,6 +378,12 @@ enum Subcommands {
         /// Print the lines to add to an editor's configuration instead
         #[arg(long, value_name = "EDITOR", value_parser = editors())]
         print_config: Option<lsp::Editor>,
+        /// Use standard input and output, as always
+        #[arg(long, hide = true)]
+        stdio: bool,
+        /// The number of the editor's process
+        #[arg(long = "clientProcessId", value_name = "N", hide = true)]
+        client: Option<u32>,
     },
     /// Report what was detected about the terminal and the machine, and why
     Doctor {

@@ -8,12 +8,15 @@ use assets::Assets;
 use language::schema::Field;
 use language::{FieldSpans, Language, Lowered, Node, Source};
 use serde_json::{Value, json};
-use text::{Edit, Findings, Span};
+use text::{Edit, Findings, Span, smallest_edit};
 
 use crate::positions::{Encoding, Lines};
 
 /// The maximum length of a text whose nodes are listed, in bytes. Longer ones are checked only.
 const MOST_SERVED: usize = 16 << 20;
+
+/// The maximum length of a text, in bytes: spans hold no more.
+pub(crate) const LONGEST: usize = u32::MAX as usize;
 
 /// A text that the editor has open.
 #[derive(Debug)]
@@ -60,7 +63,7 @@ impl Document {
             source: Source::new(language, Arc::new(text)),
             encoding,
             findings: Findings::default(),
-            is_scene: language == Language::Ray,
+            is_scene: false,
             assets: Assets::new(&[]),
         };
         document.lower();
@@ -71,24 +74,30 @@ impl Document {
         self.source.text()
     }
 
-    /// Takes a change of the editor's; false if it makes no sense.
-    pub(crate) fn change(&mut self, change: &Value) -> bool {
-        let Some(text) = change.get("text").and_then(Value::as_str) else {
-            return false;
-        };
-        let span = match change.get("range") {
-            None | Some(Value::Null) => Some(Span::new(0, self.text().len())),
-            Some(range) => self.span(range),
-        };
-        let Some(span) = span else {
-            return false;
-        };
-        let edit = Edit {
-            span,
-            text: text.to_owned(),
-        };
-        self.source.change(&[edit]);
-        self.lines = Lines::of(self.source.text());
+    /// Takes changes of the editor's, each of the text after those before; false, without any effect, if
+    /// one makes no sense.
+    pub(crate) fn change(&mut self, changes: &[Value]) -> bool {
+        let mut text = self.text().to_owned();
+        let mut lines = self.lines.clone();
+        for change in changes {
+            let Some(new) = change.get("text").and_then(Value::as_str) else {
+                return false;
+            };
+            let span = match change.get("range") {
+                None | Some(Value::Null) => Some(Span::new(0, text.len())),
+                Some(range) => lines.span(&text, range, self.encoding),
+            };
+            let Some(span) = span.filter(|span| text.len() - span.len() + new.len() <= LONGEST)
+            else {
+                return false;
+            };
+            text.replace_range(span.range(), new);
+            lines = Lines::of(&text);
+        }
+        if let Some(edit) = smallest_edit(self.source.text(), &text) {
+            self.source.substitute(Arc::new(text), &edit);
+            self.lines = lines;
+        }
         true
     }
 
@@ -98,8 +107,25 @@ impl Document {
             Ok((lowered, _)) => lowered.diagnostics,
             Err(reason) => Lowered::refused(&reason).diagnostics,
         };
-        let is_something = |node: Node| matches!(node, Node::Object(_) | Node::Light(_));
-        self.is_scene |= self.source.nodes().iter().any(is_something);
+        self.is_scene |= self.looks_like_scene();
+    }
+
+    /// Whether the text is probably a scene: other languages have the same extensions.
+    fn looks_like_scene(&self) -> bool {
+        let text = self.text();
+        match self.source.language() {
+            Language::Ray => true,
+            Language::Xml => {
+                text.contains("<xml") && ["<scene", "<camera"].iter().any(|tag| text.contains(tag))
+            }
+            Language::Dat | Language::Cse167 => {
+                let is_record = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
+                let records = text.lines().filter(is_record).count();
+                // What is missing has no place of its own.
+                let missing = self.findings.iter().filter(|found| found.span.is_empty());
+                2 * (self.findings.count() - missing.count()) <= records
+            }
+        }
     }
 
     /// The offset of a position in the parameters of a request.

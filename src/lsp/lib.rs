@@ -58,16 +58,24 @@ pub fn serve(input: impl Read + Send + 'static, output: impl Write) -> Result<()
     });
     let mut server = Server::new(output);
     loop {
-        let message: Option<Result<Value, Broken>> = match server.next_due() {
-            None => inbox.recv().ok().flatten(),
-            Some(due) => match inbox.recv_timeout(due.saturating_duration_since(Instant::now())) {
-                Ok(message) => message,
-                Err(RecvTimeoutError::Timeout) => {
-                    server.do_due(Instant::now())?;
-                    continue;
+        let waiting = inbox.try_recv();
+        if waiting.is_err() {
+            server.settle()?;
+        }
+        let message: Option<Result<Value, Broken>> = match (waiting, server.next_due()) {
+            (Ok(message), _) => message,
+            (Err(_), None) => inbox.recv().ok().flatten(),
+            (Err(_), Some(due)) => {
+                let patience = due.saturating_duration_since(Instant::now());
+                match inbox.recv_timeout(patience) {
+                    Ok(message) => message,
+                    Err(RecvTimeoutError::Timeout) => {
+                        server.do_due(Instant::now())?;
+                        continue;
+                    }
+                    Err(RecvTimeoutError::Disconnected) => None,
                 }
-                Err(RecvTimeoutError::Disconnected) => None,
-            },
+            }
         };
         let message = message.ok_or(Error::Quit)?;
         let message = message.map_err(|broken| Error::Broken(broken.to_string()))?;

@@ -62,16 +62,21 @@ impl Encoding {
 
 /// Where the lines of a text begin. CR LF, LF and CR end a line, as in the protocol.
 #[derive(Clone, Debug)]
-pub(crate) struct Lines(Vec<u32>);
+pub(crate) struct Lines {
+    starts: Vec<u32>,
+    /// Whether all characters are one byte, so that none need be counted.
+    is_ascii: bool,
+}
 
 impl Lines {
     pub(crate) fn of(text: &str) -> Self {
         let mut starts = vec![0];
         let mut at = 0;
+        let is_ascii = text.is_ascii();
         loop {
             let end = line_end(text, at);
             if end == text.len() {
-                return Self(starts);
+                return Self { starts, is_ascii };
             }
             at = end + 1;
             if text.as_bytes()[end..].starts_with(b"\r\n") {
@@ -83,12 +88,12 @@ impl Lines {
 
     /// The number of the line that an offset is on, from 0.
     pub(crate) fn line(&self, at: usize) -> usize {
-        self.0.partition_point(|start| *start as usize <= at) - 1
+        self.starts.partition_point(|start| *start as usize <= at) - 1
     }
 
     /// A line without its end.
     fn text<'t>(&self, text: &'t str, line: usize) -> (usize, &'t str) {
-        let start = self.0[line] as usize;
+        let start = self.starts[line] as usize;
         (start, &text[start..line_end(text, start)])
     }
 
@@ -99,21 +104,28 @@ impl Lines {
         let (line, character) = (number("line")?, number("character")?);
         let Some(line) = usize::try_from(line)
             .ok()
-            .filter(|line| *line < self.0.len())
+            .filter(|line| *line < self.starts.len())
         else {
             return Some(text.len());
         };
         let (start, own) = self.text(text, line);
         let character = usize::try_from(character).unwrap_or(usize::MAX);
-        Some(start + encoding.offset(own, character))
+        Some(match self.is_ascii {
+            true => start + character.min(own.len()),
+            false => start + encoding.offset(own, character),
+        })
     }
 
     /// The position of an offset.
     pub(crate) fn position(&self, text: &str, at: usize, encoding: Encoding) -> Value {
         let line = self.line(at);
         let (start, own) = self.text(text, line);
-        let before = &own[..own.len().min(at - start)];
-        json!({ "line": line, "character": encoding.length(before) })
+        let before = own.len().min(at - start);
+        let character = match self.is_ascii {
+            true => before,
+            false => encoding.length(&own[..before]),
+        };
+        json!({ "line": line, "character": character })
     }
 
     /// The range of a span.
@@ -128,19 +140,6 @@ impl Lines {
         let (start, end) = (at("start")?, at("end")?);
         (start <= end).then(|| Span::new(start, end))
     }
-}
-
-/// The word around a place: without white space, quotes and brackets.
-pub(crate) fn word_at(text: &str, at: usize) -> Span {
-    let is_word = |c: char| !c.is_whitespace() && !"\"'<>/=#\u{FEFF}".contains(c);
-    let before = text[..at].rfind(|c| !is_word(c));
-    let start = before.map_or(0, |found| {
-        found + text[found..].chars().next().map_or(0, char::len_utf8)
-    });
-    let end = text[at..]
-        .find(|c| !is_word(c))
-        .map_or(text.len(), |found| at + found);
-    Span::new(start, end)
 }
 
 #[cfg(test)]
@@ -201,20 +200,6 @@ mod tests {
             (json!([3, "ucs-2"]), Encoding::Utf16),
         ] {
             assert_eq!(Encoding::of_client(&known), expected, "{known}");
-        }
-    }
-
-    #[test]
-    fn words_end_at_blanks_quotes_and_brackets() {
-        for (text, at, word) in [
-            ("mat ID 12 x", 8, "12"),
-            ("mat ID 12", 9, "12"),
-            ("name=\"a b\"", 6, "a"),
-            ("<é/>", 1, "é"),
-            ("", 0, ""),
-            (" ", 1, ""),
-        ] {
-            assert_eq!(word_at(text, at).of(text), word, "{text} {at}");
         }
     }
 }

@@ -1,16 +1,17 @@
 //! The session with one editor.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::io::{self, Write};
+use std::mem;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use language::Language;
 use serde_json::{Value, json};
-use text::Span;
+use text::{Findings, Span};
 
 use crate::answers::{colours, completion, diagnostics, hints, hover, names, outline, tokens};
-use crate::document::Document;
+use crate::document::{Document, LONGEST};
 use crate::positions::Encoding;
 use crate::{uri, wire};
 
@@ -18,6 +19,7 @@ use crate::{uri, wire};
 pub(crate) const PATIENCE: Duration = Duration::from_millis(200);
 
 /// Codes of JSON-RPC 2.0 and of the protocol.
+const PARSE_ERROR: i32 = -32700;
 const INVALID_REQUEST: i32 = -32600;
 const UNKNOWN_METHOD: i32 = -32601;
 const INVALID_PARAMETERS: i32 = -32602;
@@ -47,6 +49,8 @@ pub(crate) struct Server<W> {
     documents: BTreeMap<String, Document>,
     /// The documents whose errors are not shown yet, and when they are.
     due: BTreeMap<String, Instant>,
+    /// The documents that have changed since they were read.
+    changed: BTreeSet<String>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -64,6 +68,7 @@ impl<W: Write> Server<W> {
             encoding: Encoding::default(),
             documents: BTreeMap::new(),
             due: BTreeMap::new(),
+            changed: BTreeSet::new(),
         }
     }
 
@@ -81,10 +86,14 @@ impl<W: Write> Server<W> {
 
     /// Takes a message of the client's.
     pub(crate) fn take(&mut self, message: &Value) -> io::Result<Next> {
+        if message.is_null() {
+            self.lose()?;
+        }
         let method = message.get("method").and_then(Value::as_str);
         let parameters = message.get("params").unwrap_or(&Value::Null);
         match (method, message.get("id")) {
             (Some(method), Some(id)) => {
+                self.settle()?;
                 let answer = self.answer(method, parameters);
                 let answer = match answer {
                     Ok(result) => json!({ "jsonrpc": "2.0", "id": id, "result": result }),
@@ -118,7 +127,8 @@ impl<W: Write> Server<W> {
                 let [Some(id), Some(text)] = words else {
                     return Ok(());
                 };
-                let Some(file) = file_of(uri, id) else {
+                let file = file_of(uri, id).filter(|_| text.len() <= LONGEST);
+                let Some(file) = file else {
                     return Ok(());
                 };
                 let text = text.to_owned();
@@ -133,14 +143,7 @@ impl<W: Write> Server<W> {
                 self.documents.get_mut(uri).map(Document::lower);
                 self.publish(uri)
             }
-            "textDocument/didClose" => {
-                self.due.remove(uri);
-                let Some(closed) = self.documents.remove(uri) else {
-                    return Ok(());
-                };
-                let none = json!({ "uri": closed.uri, "diagnostics": [] });
-                self.say("textDocument/publishDiagnostics", &none)
-            }
+            "textDocument/didClose" => self.close(uri),
             _ => Ok(()),
         }
     }
@@ -150,21 +153,62 @@ impl<W: Write> Server<W> {
             return Ok(());
         };
         let changes = parameters["contentChanges"].as_array();
-        let changes = changes.map_or(&[][..], Vec::as_slice);
-        // A change that cannot be placed would let the texts differ from here on.
-        let mut all = changes.iter();
-        if !all.all(|change| document.change(change)) {
-            let message = format!("halflight: a change of {uri} makes no sense; open it again");
-            let parameters = json!({ "type": 1, "message": message });
-            return self.say("window/showMessage", &parameters);
+        if !changes.is_some_and(|changes| document.change(changes)) {
+            self.close(uri)?;
+            return self.complain(&format!("a change of {uri} makes no sense: open it again"));
         }
         document.version = named["version"].clone();
-        document.lower();
-        if document.findings.errors() == 0 {
-            return self.publish(uri);
-        }
-        self.due.insert(uri.to_owned(), Instant::now() + PATIENCE);
+        self.changed.insert(uri.to_owned());
         Ok(())
+    }
+
+    /// Reads the texts that have changed. What is wrong with them now is shown at once if it was before;
+    /// otherwise it may be an unfinished word.
+    pub(crate) fn settle(&mut self) -> io::Result<()> {
+        for uri in mem::take(&mut self.changed) {
+            let Some(document) = self.documents.get_mut(&uri) else {
+                continue;
+            };
+            let before: HashSet<_> = messages(&document.findings).collect();
+            document.lower();
+            if messages(&document.findings).all(|message| before.contains(&message)) {
+                self.publish(&uri)?;
+            } else {
+                self.due.insert(uri, Instant::now() + PATIENCE);
+            }
+        }
+        Ok(())
+    }
+
+    /// Forgets a document.
+    fn close(&mut self, uri: &str) -> io::Result<()> {
+        self.due.remove(uri);
+        match self.documents.remove(uri) {
+            Some(_) => {
+                let none = json!({ "uri": uri, "diagnostics": [] });
+                self.say("textDocument/publishDiagnostics", &none)
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Takes a message that cannot be read: the texts may differ from the editor's from here on.
+    fn lose(&mut self) -> io::Result<()> {
+        let error = json!({ "code": PARSE_ERROR, "message": "a message is not JSON" });
+        let answer = json!({ "jsonrpc": "2.0", "id": null, "error": error });
+        wire::write(&mut self.output, &answer)?;
+        for uri in self.documents.keys().cloned().collect::<Vec<_>>() {
+            self.close(&uri)?;
+        }
+        self.complain("a message is not JSON: open the scenes again")
+    }
+
+    fn complain(&mut self, message: &str) -> io::Result<()> {
+        let message = format!("halflight: {message}");
+        self.say(
+            "window/showMessage",
+            &json!({ "type": 1, "message": message }),
+        )
     }
 
     /// Shows what is wrong with a document.
@@ -208,80 +252,78 @@ impl<W: Write> Server<W> {
         }
     }
 
-    /// Answers a question about a document.
+    /// Answers a question about a document: null about one that is no scene or too long.
     fn answer_about(&self, method: &str, parameters: &Value) -> Result<Value, Refusal> {
-        if !QUESTIONS.contains(&method) {
-            let reason = format!("{method} is not answered");
-            return Err(Refusal(UNKNOWN_METHOD, reason));
-        }
         let missing = |what: &str| Refusal(INVALID_PARAMETERS, format!("{method}: no {what}"));
-        let uri = parameters["textDocument"]["uri"].as_str();
-        let uri = uri.ok_or_else(|| missing("textDocument.uri"))?;
-        let Some(document) = self.documents.get(uri).filter(|known| known.is_served()) else {
-            return Ok(Value::Null);
+        let with = |answer: &dyn Fn(&Document) -> Result<Value, Refusal>| {
+            let uri = parameters["textDocument"]["uri"].as_str();
+            let uri = uri.ok_or_else(|| missing("textDocument.uri"))?;
+            let document = self.documents.get(uri).filter(|known| known.is_served());
+            document.map_or(Ok(Value::Null), answer)
         };
-        let at = || {
-            document
-                .offset(&parameters["position"])
-                .ok_or_else(|| missing("position"))
+        let all = |answer: fn(&Document) -> Value| with(&|document| Ok(answer(document)));
+        let at = |answer: &dyn Fn(&Document, usize) -> Result<Value, Refusal>| {
+            with(&|document| {
+                let at = document.offset(&parameters["position"]);
+                answer(document, at.ok_or_else(|| missing("position"))?)
+            })
         };
-        let range = || {
-            document
-                .span(&parameters["range"])
-                .ok_or_else(|| missing("range"))
+        let within = |answer: &dyn Fn(&Document, Span) -> Value| {
+            with(&|document| {
+                let range = document.span(&parameters["range"]);
+                Ok(answer(document, range.ok_or_else(|| missing("range"))?))
+            })
         };
-        Ok(match method {
-            "textDocument/hover" => hover::at(document, at()?),
-            "textDocument/definition" => names::definition(document, at()?),
-            "textDocument/references" => {
+        match method {
+            "textDocument/hover" => at(&|document, at| Ok(hover::at(document, at))),
+            "textDocument/definition" => at(&|document, at| Ok(names::definition(document, at))),
+            "textDocument/references" => at(&|document, at| {
                 let with_definition = &parameters["context"]["includeDeclaration"];
-                names::references(document, at()?, *with_definition == true)
+                Ok(names::references(document, at, *with_definition == true))
+            }),
+            "textDocument/documentHighlight" => {
+                at(&|document, at| Ok(names::highlights(document, at)))
             }
-            "textDocument/documentHighlight" => names::highlights(document, at()?),
-            "textDocument/rename" => {
-                let name = parameters["newName"]
-                    .as_str()
-                    .ok_or_else(|| missing("newName"))?;
-                let renamed = names::rename(document, at()?, name);
-                renamed.map_err(|reason| Refusal(REQUEST_FAILED, reason))?
+            "textDocument/prepareRename" => at(&|document, at| Ok(names::renamed(document, at))),
+            "textDocument/rename" => at(&|document, at| {
+                let name = parameters["newName"].as_str();
+                let renamed = names::rename(document, at, name.ok_or_else(|| missing("newName"))?);
+                renamed.map_err(|reason| Refusal(REQUEST_FAILED, reason))
+            }),
+            "textDocument/completion" => at(&|document, at| Ok(completion::at(document, at))),
+            "textDocument/documentSymbol" => all(outline::symbols),
+            "textDocument/foldingRange" => all(outline::folds),
+            "textDocument/documentColor" => all(colours::all),
+            "textDocument/semanticTokens/full" => all(tokens::all),
+            "textDocument/semanticTokens/range" => within(&tokens::within),
+            "textDocument/inlayHint" => within(&hints::within),
+            "textDocument/colorPresentation" => within(&|document, range| {
+                colours::presentation(document, range, &parameters["color"])
+            }),
+            _ => {
+                let reason = format!("{method} is not answered");
+                Err(Refusal(UNKNOWN_METHOD, reason))
             }
-            "textDocument/completion" => completion::at(document, at()?),
-            "textDocument/documentSymbol" => outline::symbols(document),
-            "textDocument/foldingRange" => outline::folds(document),
-            "textDocument/inlayHint" => hints::within(document, range()?),
-            "textDocument/documentColor" => colours::all(document),
-            "textDocument/colorPresentation" => {
-                colours::presentation(document, range()?, &parameters["color"])
-            }
-            "textDocument/semanticTokens/range" => tokens::within(document, range()?),
-            _ => tokens::within(document, Span::new(0, document.text().len())),
-        })
+        }
     }
 }
 
-/// The questions that are answered about a document.
-const QUESTIONS: [&str; 13] = [
-    "textDocument/hover",
-    "textDocument/definition",
-    "textDocument/references",
-    "textDocument/documentHighlight",
-    "textDocument/rename",
-    "textDocument/completion",
-    "textDocument/documentSymbol",
-    "textDocument/foldingRange",
-    "textDocument/inlayHint",
-    "textDocument/documentColor",
-    "textDocument/colorPresentation",
-    "textDocument/semanticTokens/range",
-    "textDocument/semanticTokens/full",
-];
+/// What is wrong, in words.
+fn messages(findings: &Findings) -> impl Iterator<Item = String> {
+    findings.iter().map(|found| found.message.clone())
+}
+
+/// What editors call these languages, if they name them: others are no scenes, whatever their extension.
+const KNOWN_IDS: [&str; 5] = ["", "halflight", "plaintext", "text", "xml"];
 
 /// The file of a URI and its language, by its name or, if it has none yet, by the editor's word for the
 /// language.
 fn file_of(uri: &str, id: &str) -> Option<(PathBuf, Language)> {
     let path = uri::path(uri).unwrap_or_else(|| Path::new(uri).to_owned());
+    let by_id = Language::of_extension(id);
     let by_name = Language::of_path(&path).ok();
-    let language = by_name.or_else(|| Language::of_extension(id))?;
+    let is_foreign = by_id.is_none() && !KNOWN_IDS.contains(&id);
+    let language = by_name.or(by_id).filter(|_| !is_foreign)?;
     Some((path, language))
 }
 
@@ -296,8 +338,8 @@ fn capabilities(encoding: Encoding) -> Value {
             "definitionProvider": true,
             "referencesProvider": true,
             "documentHighlightProvider": true,
-            "renameProvider": true,
-            "completionProvider": { "triggerCharacters": [" "] },
+            "renameProvider": { "prepareProvider": true },
+            "completionProvider": { "triggerCharacters": [" ", "\""] },
             "documentSymbolProvider": true,
             "foldingRangeProvider": true,
             "inlayHintProvider": true,

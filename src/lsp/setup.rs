@@ -48,23 +48,29 @@ impl Editor {
     }
 }
 
-const HELIX: &str = r#"# languages.toml
+const HELIX: &str = r##"# languages.toml
 [language-server.halflight]
 command = "halflight"
 args = ["lsp"]
 
 [[language]]
+name = "ray"
+scope = "source.ray"
+file-types = ["ray"]
+comment-token = "//"
+language-servers = ["halflight"]
+
+[[language]]
 name = "halflight"
 scope = "source.halflight"
-file-types = ["ray", "dat", "test"]
-comment-token = "//"
-roots = []
+file-types = ["dat", "test"]
+comment-token = "#"
 language-servers = ["halflight"]
 
 [[language]]
 name = "xml"
 language-servers = ["halflight"]
-"#;
+"##;
 
 const NEOVIM: &str = r#"-- init.lua
 local function halflight(event)
@@ -76,7 +82,8 @@ local function halflight(event)
   if vim.lsp.start then
     vim.lsp.start(config, { bufnr = event.buf })
   else -- before 0.8
-    vim.lsp.buf_attach_client(event.buf, vim.lsp.start_client(config))
+    halflight_client = halflight_client or vim.lsp.start_client(config)
+    vim.lsp.buf_attach_client(event.buf, halflight_client)
   end
 end
 vim.api.nvim_create_autocmd({ "BufReadPost", "BufNewFile" }, {
@@ -98,6 +105,7 @@ const EMACS: &str = r#";; init.el
   (add-to-list 'eglot-server-programs
                '((halflight-mode nxml-mode) . ("halflight" "lsp"))))
 (add-hook 'halflight-mode-hook #'eglot-ensure)
+(add-hook 'nxml-mode-hook #'eglot-ensure)
 "#;
 
 const KAKOUNE: &str = r#"# kakrc, with kak-lsp
@@ -107,7 +115,7 @@ hook -group lsp-halflight global BufSetOption filetype=(halflight|xml) %{
     [halflight]
     command = "halflight"
     args = ["lsp"]
-    root_globs = []
+    root_globs = [".git", ".hg"]
   }
 }
 "#;

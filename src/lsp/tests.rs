@@ -28,6 +28,10 @@ fn session(messages: &[Value]) -> (Vec<Value>, Result<(), Error>) {
     for message in messages {
         wire::write(&mut input, message).expect("memory is there");
     }
+    session_of(input)
+}
+
+fn session_of(input: Vec<u8>) -> (Vec<Value>, Result<(), Error>) {
     let output = Shared::default();
     let ending = serve(Cursor::new(input), output.clone());
     let output = output.0.lock().expect("nothing panics").clone();
@@ -199,6 +203,20 @@ fn what_is_wrong_is_published() {
         // No scenes, by content or name.
         ("file:///none/a.dat", "", "1 2 3\n4 5 6\n", Some(vec![])),
         (
+            "file:///none/a.test",
+            "",
+            "package main\n\nfunc main() {\n\tpoint(1, 2)\n}\n",
+            Some(vec![]),
+        ),
+        ("file:///none/a.test", "go", TEXT, None),
+        // A scene that is not whole yet.
+        (
+            "file:///none/a.xml",
+            "xml",
+            "<xml><scene><objct/></scene><camera></xml>",
+            Some(vec!["1 0:36"]),
+        ),
+        (
             "file:///none/a.xml",
             "xml",
             "<project><modelVersion/></project>",
@@ -240,15 +258,16 @@ fn changes_are_taken_in_order() {
         change(URI, 2, changes),
         request(7, "textDocument/hover", ask.clone()),
         change(URI, 3, json!([{ "text": "sphere 0 0 0 1\n" }])),
-        change(URI, 4, json!([{ "range": "x", "text": "" }])),
         request(
             8,
             "textDocument/hover",
             json!({ "textDocument": { "uri": URI }, "position": at(0, 99) }),
         ),
-        note(
-            "textDocument/didClose",
-            json!({ "textDocument": { "uri": URI } }),
+        // One that makes no sense: the texts may differ from here on.
+        change(
+            URI,
+            4,
+            json!([{ "text": "x" }, { "range": "x", "text": "" }]),
         ),
         request(9, "textDocument/hover", ask),
     ]);
@@ -258,7 +277,7 @@ fn changes_are_taken_in_order() {
     let versions: Vec<_> = versions
         .map(|message| message["params"]["version"].clone())
         .collect();
-    assert_eq!(versions, [json!(1), json!(2), json!(3), Value::Null]);
+    assert_eq!(versions, [json!(1), json!(2), Value::Null]);
     let answer = |id: u32| {
         let found = all.iter().find(|message| message["id"] == id);
         found.expect("an answer")["result"]["contents"]["value"].to_string()
@@ -270,6 +289,28 @@ fn changes_are_taken_in_order() {
         all.iter()
             .any(|message| message["method"] == "window/showMessage")
     );
+}
+
+/// The text of a lost message is unknown, so that nothing is said of any text until it is opened again.
+#[test]
+fn a_message_that_is_not_json_ends_what_is_known() {
+    let mut input = Vec::new();
+    for message in [begin(json!(["utf-16"])), open(URI, "", TEXT)] {
+        wire::write(&mut input, &message).expect("memory is there");
+    }
+    let lone = r#"{"method":"textDocument/didChange","params":{"text":"\ud83d"}}"#;
+    input.extend(format!("Content-Length: {}\r\n\r\n{lone}", lone.len()).bytes());
+    let ask = json!({ "textDocument": { "uri": URI }, "position": at(4, 13) });
+    let [shutdown, exit] = end();
+    for message in [request(7, "textDocument/hover", ask), shutdown, exit] {
+        wire::write(&mut input, &message).expect("memory is there");
+    }
+    let (said, ending) = session_of(input);
+    assert!(ending.is_ok());
+    assert_eq!(said[2]["error"]["code"], -32700);
+    assert_eq!(said[3]["params"], json!({ "uri": URI, "diagnostics": [] }));
+    assert_eq!(said[4]["method"], "window/showMessage");
+    assert_eq!(said[5]["result"], Value::Null);
 }
 
 #[test]
@@ -316,15 +357,32 @@ fn names_lead_to_their_definitions_and_uses() {
     let dat = ("file:///none/a.dat", text);
     let here = json!({ "position": at(1, 23), "context": { "includeDeclaration": true } });
     let definition = asked(dat, "textDocument/definition", here.clone());
-    assert_eq!(definition["result"]["range"]["start"], at(0, 0));
+    assert_eq!(definition["result"]["range"]["start"], at(0, 7));
     assert_eq!(
         places(&asked(dat, "textDocument/references", here.clone())),
-        ["0:0", "1:23", "2:23"]
+        ["0:7", "1:23", "2:23"]
     );
     assert_eq!(
         places(&asked(dat, "textDocument/documentHighlight", here)),
-        ["1:23", "2:23"]
+        ["0:7", "1:23", "2:23"]
     );
+    // Numbers that happen to be equal are no IDs.
+    for other in [at(0, 10), at(1, 26)] {
+        let other = json!({ "position": other, "newName": "12" });
+        assert_eq!(
+            asked(dat, "textDocument/prepareRename", other.clone())["result"],
+            Value::Null
+        );
+        assert!(asked(dat, "textDocument/rename", other)["error"].is_object());
+    }
+    let named =
+        "<xml><scene><material name='a&amp;b c'/><object material='a&amp;b c'/></scene></xml>";
+    let xml = ("file:///none/a.xml", named);
+    for character in [28, 62] {
+        let here = json!({ "position": at(0, character) });
+        let found = asked(xml, "textDocument/documentHighlight", here);
+        assert_eq!(places(&found), ["0:28", "0:58"]);
+    }
     let there = json!({ "position": at(0, 7), "newName": "12" });
     let renamed = asked(dat, "textDocument/rename", there);
     let edits = renamed["result"]["changes"][dat.0]
@@ -455,7 +513,7 @@ fn changed_texts_are_those_of_a_plain_string() {
                 plain.replace_range(span.range(), piece);
                 json!({ "range": range, "text": piece })
             };
-            assert!(document.change(&change));
+            assert!(document.change(&[change]));
             assert_eq!(document.text(), plain);
         }
     }

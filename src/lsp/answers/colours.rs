@@ -7,6 +7,9 @@ use text::{Edit, Span, parse_number, spell_like};
 
 use crate::document::Document;
 
+/// The maximum number of swatches.
+const MOST: usize = 5_000;
+
 /// The red, green and blue that a field states.
 pub(crate) fn stated(document: &Document, placed: &FieldSpans) -> Option<[f64; 3]> {
     let number = |span: &Span| parse_number(document.source.leaf_text(*span)).ok();
@@ -31,7 +34,7 @@ pub(crate) fn all(document: &Document) -> Value {
             })
         })
     };
-    fields.filter_map(colour).collect()
+    fields.filter_map(colour).take(MOST).collect()
 }
 
 /// The answer to `textDocument/colorPresentation`: the colour spelled like the one at a span.

@@ -13,7 +13,7 @@ pub(crate) fn at(document: &Document, at: usize) -> Value {
     let item = |word: &str, detail: &str| {
         let edit = text::Edit {
             span: place.span,
-            text: word.to_owned(),
+            text: document.source.spelled(place.span, word).into_owned(),
         };
         json!({ "label": word, "detail": detail, "textEdit": document.text_edit(&edit) })
     };

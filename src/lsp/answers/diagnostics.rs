@@ -10,7 +10,11 @@ use crate::uri;
 pub(crate) fn published(document: &Document) -> Value {
     let findings = document.findings.iter().filter(|_| document.is_scene);
     let findings: Vec<_> = findings.map(|found| one(document, found)).collect();
-    json!({ "uri": document.uri, "version": document.version, "diagnostics": findings })
+    let mut said = json!({ "uri": document.uri, "diagnostics": findings });
+    if !document.version.is_null() {
+        said["version"] = document.version.clone();
+    }
+    said
 }
 
 fn one(document: &Document, found: &Diagnostic) -> Value {

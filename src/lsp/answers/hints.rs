@@ -6,6 +6,9 @@ use text::Span;
 
 use crate::document::Document;
 
+/// The maximum number of hints: more than any window shows.
+const MOST: usize = 5_000;
+
 /// The answer to `textDocument/inlayHint`.
 pub(crate) fn within(document: &Document, span: Span) -> Value {
     // Attributes have names of their own.
@@ -16,7 +19,7 @@ pub(crate) fn within(document: &Document, span: Span) -> Value {
         .stated_in(span)
         .filter(|placed| placed.field.kind.is_numeric());
     let hints = fields.filter(|placed| span.touches(placed.spans[0]));
-    let hints = hints.map(|placed| {
+    let hints = hints.take(MOST).map(|placed| {
         json!({
             "position": document.position(placed.spans[0].start()),
             "label": format!("{}:", placed.field.key),

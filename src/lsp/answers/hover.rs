@@ -1,6 +1,6 @@
 //! What a field is, and what its value means.
 
-use language::schema::{Field, Kind};
+use language::schema::{Category, Field, Kind};
 use serde_json::{Value, json};
 use text::Span;
 
@@ -60,6 +60,7 @@ fn answer(document: &Document, span: Span, said: String) -> Value {
 fn allowed(field: &Field) -> String {
     match field.kind {
         Kind::Choice(words) => words.join(" · "),
+        Kind::Reference(Category::Object) => "the ID of an object".to_owned(),
         Kind::Reference(category) => format!("the ID of a {}", category.word()),
         Kind::Name(category) => format!("the name of a {}", category.word()),
         Kind::Word => "a word".to_owned(),

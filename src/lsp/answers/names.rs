@@ -1,97 +1,86 @@
 //! IDs and names: where they are defined and used, and what renaming them changes.
 
+use language::Node;
 use language::schema::Kind;
-use language::{FieldSpans, Node};
 use serde_json::{Value, json};
 use text::Span;
 
 use crate::document::{Document, Place};
-use crate::positions::word_at;
 
 /// The node that the value of a field names.
 pub(crate) fn target(document: &Document, place: &Place) -> Option<Node> {
-    named(document, place.node, &place.placed)
-}
-
-fn named(document: &Document, node: Node, placed: &FieldSpans) -> Option<Node> {
-    let (Kind::Reference(category) | Kind::Name(category)) = placed.field.kind else {
+    let (Kind::Reference(category) | Kind::Name(category)) = place.field().kind else {
         return None;
     };
-    let literal = document.source.leaf_text(*placed.spans.first()?);
-    let known = document.source.references(node, category).into_iter();
+    let literal = document.source.leaf_text(place.span);
+    let known = document.source.references(place.node, category).into_iter();
     let found = known.into_iter().find(|(name, _)| name == literal);
     found.map(|(_, node)| node)
 }
 
-/// The node that the word at an offset defines or names, and that word.
-fn subject(document: &Document, at: usize) -> Option<(Node, Span)> {
-    if let Some(place) = document.place(at)
-        && let Some(node) = target(document, &place)
-    {
-        return Some((node, place.span));
-    }
-    let word = word_at(document.text(), at);
-    let node = document.source.node_at(Span::at(at))?;
-    let is_name = document.source.called(node) == Some(word.of(document.text()));
-    (is_name && !word.is_empty()).then_some((node, word))
+/// The words that a node is called by, its definition among them, in text order: what renaming it
+/// changes. Empty if it has no ID and no name.
+fn words(document: &Document, node: Node) -> Vec<Span> {
+    // No text is likely to have either already.
+    let unused = ["987654321", "name-987654321"];
+    let mut renamings = unused
+        .iter()
+        .map(|name| document.source.renaming(node, name));
+    let edits = renamings.find_map(Result::ok).unwrap_or_default();
+    let spans = edits.iter().map(|edit| edit.span);
+    spans.filter(|span| !span.is_empty()).collect()
 }
 
-/// The words that name a node, in text order, without its definition.
-fn uses(document: &Document, of: Node) -> Vec<Span> {
-    let Some(name) = document.source.called(of) else {
-        return Vec::new();
-    };
-    let mut uses = Vec::new();
-    for node in document.source.nodes().iter() {
-        for placed in document.source.fields(node) {
-            let is_name = matches!(placed.field.kind, Kind::Reference(_) | Kind::Name(_));
-            let span = placed
-                .spans
-                .first()
-                .filter(|_| is_name && placed.is_explicit());
-            let Some(span) = span.filter(|span| document.source.leaf_text(**span) == name) else {
-                continue;
-            };
-            if named(document, node, &placed) == Some(of) {
-                uses.push(*span);
-            }
-        }
-    }
-    uses.sort_unstable();
-    uses.dedup();
-    uses
+/// The node that the word at an offset defines or names, and all words that it is called by.
+fn subject(document: &Document, at: usize) -> Option<(Node, Vec<Span>)> {
+    let used = document
+        .place(at)
+        .and_then(|place| target(document, &place));
+    let node = used.or_else(|| document.source.node_at(Span::at(at)))?;
+    let words = words(document, node);
+    let is_here = words.iter().any(|word| word.touches(Span::at(at)));
+    is_here.then_some((node, words))
 }
 
 /// The answer to `textDocument/definition`.
 pub(crate) fn definition(document: &Document, at: usize) -> Value {
-    let found = subject(document, at);
-    found.map_or(Value::Null, |(node, _)| {
-        document.location(document.source.span(node))
-    })
+    let Some((node, words)) = subject(document, at) else {
+        return Value::Null;
+    };
+    let own = document.source.span(node);
+    let name = words.into_iter().find(|word| own.touches(*word));
+    document.location(name.unwrap_or(own))
 }
 
 /// The answer to `textDocument/references`.
 pub(crate) fn references(document: &Document, at: usize, with_definition: bool) -> Value {
-    let Some((node, _)) = subject(document, at) else {
+    let Some((node, words)) = subject(document, at) else {
         return Value::Null;
     };
-    let own = with_definition.then(|| document.source.span(node));
-    let all = own.into_iter().chain(uses(document, node));
-    all.map(|span| document.location(span)).collect()
+    let own = document.source.span(node);
+    let wanted = |word: &Span| with_definition || !own.touches(*word);
+    let words = words.into_iter().filter(wanted);
+    words.map(|word| document.location(word)).collect()
 }
 
-/// The answer to `textDocument/documentHighlight`: all uses, and the word itself.
+/// The answer to `textDocument/documentHighlight`.
 pub(crate) fn highlights(document: &Document, at: usize) -> Value {
-    let Some((node, word)) = subject(document, at) else {
+    let Some((_, words)) = subject(document, at) else {
         return Value::Null;
     };
-    let mut all = uses(document, node);
-    all.push(word);
-    all.sort_unstable();
-    all.dedup();
-    all.iter()
-        .map(|span| json!({ "range": document.range(*span) }))
+    let words = words.iter();
+    words
+        .map(|word| json!({ "range": document.range(*word) }))
         .collect()
+}
+
+/// The answer to `textDocument/prepareRename`.
+pub(crate) fn renamed(document: &Document, at: usize) -> Value {
+    let here = subject(document, at).and_then(|(_, words)| {
+        let is_here = |word: &Span| word.touches(Span::at(at));
+        words.into_iter().find(is_here)
+    });
+    here.map_or(Value::Null, |word| document.range(word))
 }
 
 /// The answer to `textDocument/rename`; an error says why a name cannot be given.

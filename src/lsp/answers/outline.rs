@@ -5,18 +5,18 @@ use serde_json::{Value, json};
 
 use crate::document::Document;
 
-/// The maximum number of symbols: editors show them in a list.
+/// The maximum number of symbols and of folds.
 const MOST: usize = 10_000;
 
-/// The answer to `textDocument/documentSymbol`.
+/// The answer to `textDocument/documentSymbol`, in the order of the text.
 pub(crate) fn symbols(document: &Document) -> Value {
     let source = &document.source;
-    let nodes = source
-        .nodes()
-        .iter()
-        .filter(|node| !source.span(*node).is_empty());
-    let symbol = |node| {
-        let range = document.range(source.span(node));
+    let nodes = source.nodes().iter().map(|node| (source.span(node), node));
+    let nodes = nodes.filter(|(span, _)| !span.is_empty());
+    let mut nodes: Vec<_> = nodes.take(MOST).collect();
+    nodes.sort_unstable_by_key(|(span, _)| *span);
+    let symbol = |(span, node)| {
+        let range = document.range(span);
         json!({
             "name": source.name(node),
             "detail": source.comment(node).unwrap_or_default(),
@@ -25,7 +25,7 @@ pub(crate) fn symbols(document: &Document) -> Value {
             "selectionRange": range,
         })
     };
-    nodes.take(MOST).map(symbol).collect()
+    nodes.into_iter().map(symbol).collect()
 }
 
 /// The nearest of the protocol's kinds, which editors show as icons.
@@ -53,7 +53,7 @@ pub(crate) fn folds(document: &Document) -> Value {
         let span = source.span(node);
         [span.start(), span.end()].map(|at| document.line(at))
     });
-    let folds = lines.filter(|[start, end]| start < end);
+    let folds = lines.filter(|[start, end]| start < end).take(MOST);
     folds
         .map(|[start, end]| json!({ "startLine": start, "endLine": end }))
         .collect()

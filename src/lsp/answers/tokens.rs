@@ -9,13 +9,21 @@ use crate::document::Document;
 /// The types of tokens, by number.
 pub(crate) const TYPES: [&str; 3] = ["comment", "number", "keyword"];
 
-/// The answer to `textDocument/semanticTokens/full`, or `range` with a span. Editors know `.xml`.
+/// The answer to `textDocument/semanticTokens/full`.
+pub(crate) fn all(document: &Document) -> Value {
+    within(document, Span::new(0, document.text().len()))
+}
+
+/// The answer to `textDocument/semanticTokens/range`. Editors know `.xml`.
 pub(crate) fn within(document: &Document, span: Span) -> Value {
     let source = &document.source;
     if source.language() == Language::Xml {
         return json!({ "data": [] });
     }
-    let [mark, _] = source.comment_marks();
+    let marks = match source.language() {
+        Language::Ray => ["//", r"\\"],
+        _ => ["#", "//"],
+    };
     let mut data: Vec<usize> = Vec::new();
     let mut before = [0, 0];
     for leaf in source
@@ -24,7 +32,7 @@ pub(crate) fn within(document: &Document, span: Span) -> Value {
         .filter(|leaf| span.touches(*leaf))
     {
         let word = source.leaf_text(leaf);
-        let kind = if word.starts_with(mark) || word.starts_with(['#', '\\']) {
+        let kind = if marks.iter().any(|mark| word.starts_with(mark)) {
             0
         } else if parse_number(word).is_ok() {
             1
