@@ -58,12 +58,13 @@ fn has_same_bytes(one: &Path, other: &Path) -> bool {
     one.is_some() && one == other
 }
 
-/// Warnings for the files that a scene and its new text name, if they are looked for in another folder.
+/// Warnings for the files that both a scene and its new text name, if they are looked for in another folder.
 fn unreachable_files(work: &Convert, path: &Path, loaded: &Loaded, text: &str) -> Findings {
     let mut found = Findings::default();
     let folders = [work.scene.as_path(), path].map(file::directory_of);
     let [old, new] = folders.each_ref().map(|folder| folder.canonicalize().ok());
-    if old == new {
+    let named = loaded.source.files();
+    if old == new || named.is_empty() {
         return found;
     }
     let mut converted = Source::new(work.to, Arc::new(text.to_owned()));
@@ -75,8 +76,7 @@ fn unreachable_files(work: &Convert, path: &Path, loaded: &Loaded, text: &str) -
         .into_iter()
         .map(|named| named.path)
         .collect();
-    let named = loaded.source.files().into_iter();
-    for named in named.filter(|named| kept.contains(&named.path)) {
+    for named in named.into_iter().filter(|named| kept.contains(&named.path)) {
         let [old, new] = folders.each_ref().map(|folder| folder.join(&named.path));
         if !file::is_same(&old, &new) && !has_same_bytes(&old, &new) {
             found.warning(|| {

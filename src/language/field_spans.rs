@@ -23,7 +23,7 @@ pub struct FieldSpans {
 pub(super) struct Implicit {
     /// All components.
     pub(super) components: Vec<Component>,
-    /// The element to write them in, if that is missing too.
+    /// The element to write them in, if that is missing too, or the command.
     pub(super) element: Option<&'static str>,
     /// The place and the surroundings of the insertion.
     pub(super) insertion: Insertion,
@@ -45,7 +45,7 @@ pub(super) struct Limit {
 pub(super) struct Component {
     /// What is written before its value.
     pub(super) name: &'static str,
-    /// Its value; `None` if the text omits it.
+    /// The place of its value; `None` if the text omits it.
     pub(super) place: Option<Span>,
     /// Its value if the text omits it.
     pub(super) default: Cow<'static, str>,

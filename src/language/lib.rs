@@ -255,7 +255,7 @@ pub fn extensions() -> String {
 pub struct Lowered {
     /// The scene; `None` if there are errors.
     pub scene: Option<Scene>,
-    /// Errors and warnings, in text order.
+    /// Findings, in text order.
     pub diagnostics: Findings,
 }
 
@@ -277,7 +277,7 @@ impl Lowered {
 pub struct Before<'a> {
     /// The scene before the edit.
     pub scene: &'a Scene,
-    /// The warnings before the edit.
+    /// The findings before the edit.
     pub diagnostics: &'a Findings,
 }
 

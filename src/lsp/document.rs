@@ -211,3 +211,74 @@ impl Document {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "camera 0 0 9 0 0 0 0 1 0 45\nsphere 0 0 0 1\n";
+
+    /// Random changes of any kind leave the document with the text that a plain string has.
+    #[test]
+    fn changed_texts_are_those_of_a_plain_string() {
+        const PIECES: [&str; 12] = [
+            "\n",
+            "\r\n",
+            "\r",
+            "1 ",
+            "\t",
+            "é",
+            "\u{1F600}",
+            "sphere 0 0 0 1",
+            "#",
+            " x",
+            "",
+            "\u{FEFF}",
+        ];
+        let mut random = 0x9E37_79B9_7F4A_7C15_u64;
+        let mut below = |count: usize| {
+            random ^= random << 13;
+            random ^= random >> 7;
+            random ^= random << 17;
+            (random >> 11) as usize % count
+        };
+        for encoding in [Encoding::Utf8, Encoding::Utf16, Encoding::Utf32] {
+            let path = PathBuf::from("/none/a.test");
+            let file = (path, Language::Cse167);
+            let mut document = Document::new(
+                "file:///none/a.test".to_owned(),
+                file,
+                TEXT.to_owned(),
+                encoding,
+            );
+            let mut plain = TEXT.to_owned();
+            for _ in 0..3_400 {
+                let is_end = |at: usize, text: &str| {
+                    text.is_char_boundary(at) && !text[..at].ends_with('\r')
+                };
+                let mut place = |text: &str| loop {
+                    let at = below(text.len() + 1);
+                    if is_end(at, text) {
+                        return at;
+                    }
+                };
+                let (one, other) = (place(&plain), place(&plain));
+                let span = Span::new(one.min(other), one.max(other).min(one.min(other) + 40));
+                if !is_end(span.end(), &plain) {
+                    continue;
+                }
+                let piece = PIECES[below(PIECES.len())];
+                let change = if below(40) == 0 {
+                    plain = TEXT.to_owned();
+                    json!({ "text": TEXT })
+                } else {
+                    let range = document.range(span);
+                    plain.replace_range(span.range(), piece);
+                    json!({ "range": range, "text": piece })
+                };
+                assert!(document.change(&[change]));
+                assert_eq!(document.text(), plain);
+            }
+        }
+    }
+}

@@ -110,10 +110,12 @@ impl Lines {
         };
         let (start, own) = self.text(text, line);
         let character = usize::try_from(character).unwrap_or(usize::MAX);
-        Some(match self.is_ascii {
-            true => start + character.min(own.len()),
-            false => start + encoding.offset(own, character),
-        })
+        let within = if self.is_ascii {
+            character.min(own.len())
+        } else {
+            encoding.offset(own, character)
+        };
+        Some(start + within)
     }
 
     /// The position of an offset.
@@ -121,9 +123,10 @@ impl Lines {
         let line = self.line(at);
         let (start, own) = self.text(text, line);
         let before = own.len().min(at - start);
-        let character = match self.is_ascii {
-            true => before,
-            false => encoding.length(&own[..before]),
+        let character = if self.is_ascii {
+            before
+        } else {
+            encoding.length(&own[..before])
         };
         json!({ "line": line, "character": character })
     }

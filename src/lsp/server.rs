@@ -107,7 +107,7 @@ impl<W: Write> Server<W> {
             (Some("exit"), None) if self.state == State::ShutDown => return Ok(Next::End),
             (Some("exit"), None) => return Ok(Next::Quit),
             (Some(method), None) if self.state == State::Running => {
-                self.note(method, parameters)?
+                self.note(method, parameters)?;
             }
             // Notes out of turn, answers to nothing, and what is no message.
             _ => {}

@@ -14,25 +14,19 @@ pub(crate) fn path(uri: &str) -> Option<PathBuf> {
     while let [first, rest @ ..] = left {
         let code = rest.get(..2).filter(|_| *first == b'%');
         let code = code.and_then(|digits| std::str::from_utf8(digits).ok());
-        match code.and_then(|digits| u8::from_str_radix(digits, 16).ok()) {
-            Some(byte) => {
-                bytes.push(byte);
-                left = &rest[2..];
-            }
-            None => {
-                bytes.push(*first);
-                left = rest;
-            }
-        }
+        let byte = code.and_then(|digits| u8::from_str_radix(digits, 16).ok());
+        bytes.push(byte.unwrap_or(*first));
+        left = if byte.is_some() { &rest[2..] } else { rest };
     }
     Some(PathBuf::from(OsString::from_vec(bytes)))
 }
 
 /// The URI of a file named by a text, relative to that.
 pub(crate) fn beside(uri: &str, file: &str) -> Option<String> {
-    let folder = match file.starts_with('/') {
-        true => "file://",
-        false => &uri[..=uri.rfind('/')?],
+    let folder = if file.starts_with('/') {
+        "file://"
+    } else {
+        &uri[..=uri.rfind('/')?]
     };
     let mut found = folder.to_owned();
     for byte in file.bytes() {

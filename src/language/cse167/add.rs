@@ -82,7 +82,7 @@ impl Source {
         };
         let start = self.span(light).start();
         let head = Words::new(&self.text, self.span(light)).next();
-        let mut edits = vec![edit(head.unwrap_or(Span::at(start)), kind)];
+        let mut edits = vec![edit(head.unwrap_or_else(|| Span::at(start)), kind)];
         let fields = self.fields(light);
         let place = fields.first().map_or(&[][..], |placed| &placed.spans);
         let is_zero = place.iter().all(|span| number(&self.text, *span) == 0.0);

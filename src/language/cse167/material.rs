@@ -1,4 +1,6 @@
-//! The values of its material that a primitive catches from afar, and how it gets others of its own.
+//! The material that a primitive inherits from commands above it, and how it gets values of its own.
+
+use std::cell::LazyCell;
 
 use super::Source;
 use super::lower::state::{DEFAULTS, MATERIAL};
@@ -15,39 +17,36 @@ use text::{Edit, Span, line_end};
 impl Source {
     /// The fields of a node, given those in its own records: of a material all its values, whether a
     /// command states them or not; of an object those of its material too, in the command that only this
-    /// object catches, if there is one.
-    pub(super) fn with_caught(&self, node: Node, own: Vec<FieldSpans>) -> Vec<FieldSpans> {
-        let objects = 0..self.origins.objects().len();
-        let (mut fields, material, objects) = match node {
-            Node::Object(object) => (own, self.material(object), [Some(object); 2]),
+    /// object inherits, if there is one.
+    pub(super) fn with_inherited(&self, node: Node, own: Vec<FieldSpans>) -> Vec<FieldSpans> {
+        let (mut fields, material, ends) = match node {
+            Node::Object(object) => (own, self.material(object), Some([object; 2])),
             Node::Material(material) => {
-                // One follows the other, with only lights between.
-                let uses = |object: &usize| self.material(*object) == Some(material);
-                let ends = [objects.clone().find(uses), objects.rev().find(uses)];
+                let ends = self.origins.own.ends.get(material).copied();
                 (Vec::new(), Some(material), ends)
             }
             _ => return own,
         };
-        let caught = &self.origins.own;
-        let commands = material.and_then(|material| caught.stated.get(material));
-        let ([Some(first), Some(last)], Some(commands)) = (objects, commands) else {
+        let state = &self.origins.own;
+        let commands = material.and_then(|material| state.stated.get(material));
+        let (Some(ends), Some(commands)) = (ends, commands) else {
             return fields;
         };
+        let around = LazyCell::new(|| self.around(ends));
         let parts = commands.iter().zip(MATERIAL).zip(DEFAULTS);
         fields.extend(parts.map(|((at, record), default)| {
             let Some((at, placed)) = at.and_then(|at| Some((at, self.command(at, record)?))) else {
                 let former = default.into_iter().take(record.numbers()).map(spelled);
-                return self.around([first, last], record, (former.collect(), None));
+                return around.field(record, former.collect(), None);
             };
-            if matches!(node, Node::Material(_)) || caught.catches.get(&at) == Some(&1) {
+            if matches!(node, Node::Material(_)) || state.inheritors.get(&at) == Some(&1) {
                 return placed;
             }
             let former = placed
                 .spans
                 .iter()
                 .map(|span| span.of(&self.text).to_owned());
-            let inherited = placed.spans.first().copied();
-            self.around([first, last], record, (former.collect(), inherited))
+            around.field(record, former.collect(), placed.spans.first().copied())
         }));
         fields
     }
@@ -57,51 +56,18 @@ impl Source {
         fields(&self.text, &self.tree, (at, record)).pop()
     }
 
-    /// A value that a command in front of objects could state, and the former one that a command behind
-    /// them would restore, with its place in the text.
-    fn around(
-        &self,
-        [first, last]: [usize; 2],
-        record: &'static Record,
-        (former, inherited): (Vec<String>, Option<Span>),
-    ) -> FieldSpans {
-        let (text, ending) = (&*self.text, line_ending(&self.text));
-        let ends = [
-            self.commands(first).first().copied(),
-            self.commands(last).last().copied(),
-        ];
-        let [first, last] = ends.map(|at| self.tree.span(at.unwrap_or_default()));
-        let indent = Span::new(line_from(text, first.start()), first.start());
-        let at_first = self.tree.at(first).next().unwrap_or_default();
-        // The comment above is the object's.
-        let start = self.block_span(at_first).start();
-        let restored = format!(
-            "{ending}{}{} {}",
-            indent.of(text),
-            record.name,
-            former.join(" ")
-        );
-        let component = |value: String| Component {
-            name: record.name,
-            place: None,
-            default: value.into(),
-            is_required: true,
-        };
-        let insertion = Insertion {
-            before: vec![Piece::Copy(indent)],
-            between: vec![Piece::Literal(ending), Piece::Copy(indent)],
-            after: vec![Piece::Literal(ending)],
-            ..Insertion::at(start)
-        };
-        let components = former.into_iter().map(component).collect();
-        let placed = FieldSpans::with_defaults(record.field(0), components, None, insertion);
-        placed.limited(Limit {
-            edit: Edit {
-                span: Span::at(line_end(text, last.end())),
-                text: restored,
-            },
-            inherited,
-        })
+    /// The surroundings of the objects from the first to the last of these.
+    fn around(&self, [first, last]: [usize; 2]) -> Around<'_> {
+        let first = self.commands(first).first().copied().unwrap_or_default();
+        let last = self.commands(last).last().copied().unwrap_or_default();
+        let (text, start) = (&*self.text, self.tree.span(first).start());
+        Around {
+            text,
+            indent: Span::new(line_from(text, start), start),
+            // The comment above is the object's.
+            start: self.block_span(first).start(),
+            behind: line_end(text, self.tree.span(last).end()),
+        }
     }
 
     /// The commands around an object that state values for it alone and restore the former ones.
@@ -121,19 +87,16 @@ impl Source {
                     .collect(),
             )
         };
-        let catches = &self.origins.own.catches;
+        let inheritors = &self.origins.own.inheritors;
         let mut own = Vec::new();
         for at in (0..first).rev() {
-            let Some(record) = stated(at).filter(|_| catches.get(&at) == Some(&1)) else {
+            let Some(record) = stated(at).filter(|_| inheritors.get(&at) == Some(&1)) else {
                 break;
             };
             let before = (0..at).rev().find(|at| self.kind(*at) == Some(record));
-            let former = match before {
-                Some(before) => numbers(before, record),
-                None => MATERIAL.iter().zip(DEFAULTS).find_map(|(of, default)| {
-                    (**of == *record).then(|| default[..record.numbers()].to_vec())
-                }),
-            };
+            let slot = MATERIAL.iter().position(|of| *of == record);
+            let default = slot.map(|slot| DEFAULTS[slot][..record.numbers()].to_vec());
+            let former = before.map_or(default, |before| numbers(before, record));
             let mut behind = (last + 1..).take_while(|at| stated(*at).is_some());
             let restores = |at: &usize| {
                 stated(*at) == Some(record) && former.is_some() && numbers(*at, record) == former
@@ -146,19 +109,72 @@ impl Source {
     }
 }
 
+/// The surroundings of some objects, where commands can state values for them alone.
+struct Around<'t> {
+    text: &'t str,
+    /// The white space before the first command.
+    indent: Span,
+    /// The place of a line in front.
+    start: usize,
+    /// The place behind the last line.
+    behind: usize,
+}
+
+impl Around<'_> {
+    /// A value that a command in front could state, and the former one that a command behind would
+    /// restore, with its place in the text.
+    fn field(
+        &self,
+        record: &'static Record,
+        former: Vec<String>,
+        inherited: Option<Span>,
+    ) -> FieldSpans {
+        let (indent, ending) = (self.indent, line_ending(self.text));
+        let restored = [
+            ending,
+            indent.of(self.text),
+            record.name,
+            " ",
+            &former.join(" "),
+        ]
+        .concat();
+        let component = |value: String| Component {
+            name: "",
+            place: None,
+            default: value.into(),
+            is_required: true,
+        };
+        let insertion = Insertion {
+            before: vec![Piece::Copy(indent)],
+            between: vec![Piece::Literal(ending), Piece::Copy(indent)],
+            after: vec![Piece::Literal(ending)],
+            ..Insertion::at(self.start)
+        };
+        let components = former.into_iter().map(component).collect();
+        let (field, name) = (record.field(0), Some(record.name));
+        FieldSpans::with_defaults(field, components, name, insertion).limited(Limit {
+            edit: Edit {
+                span: Span::at(self.behind),
+                text: restored,
+            },
+            inherited,
+        })
+    }
+}
+
 /// Returns the edits that insert render settings and commands of the material.
 pub(super) fn insertions(text: &str, wanted: &[Wanted<'_>]) -> Vec<Edit> {
-    let is_caught = |(placed, _): &&Wanted<'_>| {
+    let is_inherited = |(placed, _): &&Wanted<'_>| {
         MATERIAL
             .iter()
             .any(|record| record.field(0) == placed.field)
     };
-    let (caught, settings): (Vec<_>, Vec<_>) = wanted.iter().partition(is_caught);
+    let (inherited, settings): (Vec<_>, Vec<_>) = wanted.iter().partition(is_inherited);
     let settings: Vec<_> = settings.into_iter().cloned().collect();
     let mut edits = rendering::insertions(text, &settings);
-    let own = caught.iter().filter(|(placed, values)| {
+    let own = inherited.iter().filter(|(placed, values)| {
         let is_same = |(at, value): &(usize, String)| placed.default_of(*at) == Some(value);
-        !values.iter().all(is_same) && !caught.iter().any(|(other, _)| covers(other, placed))
+        !values.iter().all(is_same) && !inherited.iter().any(|(other, _)| also_sets(other, placed))
     });
     let own: Vec<_> = own.map(|wanted| (*wanted).clone()).collect();
     edits.extend(field_spans::insertions(text, &own, |implicit, values| {
@@ -168,15 +184,18 @@ pub(super) fn insertions(text: &str, wanted: &[Wanted<'_>]) -> Vec<Edit> {
         };
         let components = &implicit.components;
         let values: Vec<_> = components.iter().enumerate().map(value).collect();
-        let name = components.first().map_or("", |first| first.name);
-        format!("{name} {}", values.join(" "))
+        format!(
+            "{} {}",
+            implicit.element.unwrap_or_default(),
+            values.join(" ")
+        )
     }));
     edits
 }
 
-/// Whether a value that is set is that of another field too: stated in the command that the other
-/// inherits, or in a command around all of its objects.
-fn covers(placed: &FieldSpans, other: &FieldSpans) -> bool {
+/// Whether setting `placed` sets `other` too: they share a command, or the one stands around all objects
+/// of the other.
+fn also_sets(placed: &FieldSpans, other: &FieldSpans) -> bool {
     if placed.field != other.field {
         return false;
     }

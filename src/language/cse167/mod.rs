@@ -75,7 +75,7 @@ impl Language for Cse167 {
     }
 
     fn fields(source: &Source, node: Node, own: Vec<FieldSpans>) -> Vec<FieldSpans> {
-        source.with_caught(node, own)
+        source.with_inherited(node, own)
     }
 
     fn insertions(text: &str, wanted: &[Wanted<'_>]) -> Vec<Edit> {

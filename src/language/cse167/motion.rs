@@ -21,9 +21,8 @@ use crate::view::{line_ending, line_from, spelled};
 use crate::{Motion, Node, SceneText, StructureError};
 use text::{Edit, Span, line_end};
 
-/// The largest relative difference between the axes of a transform that turns and scales alike in all
-/// directions.
-const ALIKE: f64 = 1e-9;
+/// The largest relative difference that counts as rounding.
+const ROUNDING: f64 = 1e-9;
 
 impl Moves for Source {
     fn schema(&self) -> &'static Schema {
@@ -285,7 +284,7 @@ impl Source {
     }
 }
 
-/// Whether a transform turns and scales alike in all directions.
+/// Whether a transform is a similarity: a rotation with a uniform scale.
 pub(super) fn is_similar(transform: &DAffine3) -> bool {
     let columns = [transform.x_axis, transform.y_axis, transform.z_axis];
     let [a, b, c] = columns.map(DVec3::length);
@@ -294,8 +293,8 @@ pub(super) fn is_similar(transform: &DAffine3) -> bool {
         columns[0].dot(columns[2]),
         columns[1].dot(columns[2]),
     ];
-    (a - b).abs().max((a - c).abs()) <= ALIKE * a
-        && across.iter().all(|dot| dot.abs() <= ALIKE * a * a)
+    (a - b).abs().max((a - c).abs()) <= ROUNDING * a
+        && across.iter().all(|dot| dot.abs() <= ROUNDING * a * a)
 }
 
 /// A command of a transform.
@@ -331,7 +330,7 @@ impl Transform {
     fn is_like(&self, other: &Self) -> bool {
         let mut pairs = self.numbers.iter().zip(&other.numbers);
         self.record == other.record
-            && pairs.all(|(one, other)| (one - other).abs() <= ALIKE * one.abs().max(1.0))
+            && pairs.all(|(one, other)| (one - other).abs() <= ROUNDING * one.abs().max(1.0))
     }
 
     /// The numbers of the one transform that does what `first` and then this one do; `None` if they are
@@ -356,7 +355,7 @@ impl Transform {
             );
         }
         let axis = |of: &Self| DVec3::from_slice(&of.numbers).normalize_or_zero();
-        if !axis(self).abs_diff_eq(axis(first), ALIKE) {
+        if !axis(self).abs_diff_eq(axis(first), ROUNDING) {
             return None;
         }
         let mut numbers = first.numbers.clone();
@@ -415,7 +414,7 @@ fn transforms(
                     let own = back
                         .transform_vector3(DVec3::AXES[axis])
                         .normalize_or_zero();
-                    let known = (0..3).find(|&at| ALIKE.mul_add(-1.0, 1.0) <= own[at].abs());
+                    let known = (0..3).find(|&at| ROUNDING.mul_add(-1.0, 1.0) <= own[at].abs());
                     let Some(known) = known.filter(|_| is_similar(frame)) else {
                         return refused(
                             "it can only be scaled along its own axes: press the axis key again",

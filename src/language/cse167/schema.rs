@@ -131,7 +131,7 @@ const BRDF: Record = state("brdf", &["brdf"], IGNORED);
 /// The commands that a mesh is made of.
 pub(super) const PILES: [Record; 6] = [MAXVERTS, MAXVERTNORMS, VERTEX, VERTEX_NORMAL, TRI, TRI_NORMAL];
 
-/// The commands that are ignored, with one warning for all.
+/// The commands that are ignored, with one note for all.
 pub(super) const READ_OVER: [&str; 6] = [
     LIGHT_SAMPLES.name, LIGHT_STRATIFY.name, NEXT_EVENT_ESTIMATION.name, RUSSIAN_ROULETTE.name,
     IMPORTANCE_SAMPLING.name, BRDF.name,

@@ -101,7 +101,7 @@ pub(crate) trait Language: Clone + Copy + Debug + Default + Send + Sync + 'stati
         place.map(|place| place.at).into_iter().collect()
     }
 
-    /// The further records that serve an object alone.
+    /// The records that affect an object alone, and are deleted with it.
     fn goes_with(source: &Source<Self>, object: usize) -> Vec<usize> {
         let _ = (source, object);
         Vec::new()

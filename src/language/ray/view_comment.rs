@@ -52,7 +52,7 @@ pub(super) struct ViewComment {
     spans: [Span; VIEW.numbers()],
 }
 
-/// No comment.
+/// The view of a text without a view comment.
 impl Default for ViewComment {
     fn default() -> Self {
         Self {

@@ -92,7 +92,8 @@ pub(super) fn material(kind: &str, name: &str) -> String {
 
 /// An element with these attributes and empty elements in it.
 fn element(name: &str, attributes: &str, parts: &[&str]) -> String {
-    let parts: String = parts.iter().map(|part| format!("  <{part}/>\n")).collect();
+    let lines = parts.iter().flat_map(|part| ["  <", part, "/>\n"]);
+    let parts: String = lines.collect();
     format!("<{name}{attributes}>\n{parts}</{name}>")
 }
 

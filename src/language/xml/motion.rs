@@ -97,9 +97,7 @@ impl Source {
             let (old, factor) = self.vector(&placed);
             let new = moved(motion, old);
             let old = self.numbers(&placed);
-            // A factor of 0 would leave it at the origin.
-            let factor = if factor == 0.0 { 1.0 } else { factor };
-            let new = [new.x / factor, new.y / factor, new.z / factor, factor];
+            let new = with_factor(new, factor);
             let new = old
                 .iter()
                 .zip(new)
@@ -285,9 +283,8 @@ impl Source {
 
     /// The edits that set the vector of a transform, keeping its factor.
     fn set(&self, transform: &Transform, vector: DVec3, decimals: usize) -> Vec<Edit> {
-        let factor = transform.factor();
-        let factor = if factor == 0.0 { 1.0 } else { factor };
-        self.set_numbers(transform, &(vector / factor).to_array(), decimals)
+        let numbers = with_factor(vector, transform.factor());
+        self.set_numbers(transform, &numbers, decimals)
     }
 
     fn set_numbers(&self, transform: &Transform, new: &[f64], decimals: usize) -> Vec<Edit> {
@@ -379,4 +376,11 @@ fn attributes(names: &[&str], numbers: &[f64], default: f64) -> String {
 
 fn refused(reason: &str) -> StructureError {
     StructureError::Inexpressible(reason.to_owned())
+}
+
+/// The numbers of a vector and a factor of it. A factor of 0, which would leave nothing of it, becomes 1.
+fn with_factor(vector: DVec3, factor: f64) -> [f64; 4] {
+    let factor = if factor == 0.0 { 1.0 } else { factor };
+    let DVec3 { x, y, z } = vector / factor;
+    [x, y, z, factor]
 }

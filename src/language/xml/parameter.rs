@@ -22,7 +22,7 @@ pub(super) struct Class {
     pub(super) hint: &'static str,
 }
 
-/// A kind of node in its category. Two of one word are the same.
+/// A kind of node in its category. Types with the same word are equal.
 #[derive(Debug)]
 pub(super) struct Type {
     /// The word for it, mostly the value of `type`.

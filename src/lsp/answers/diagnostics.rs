@@ -23,19 +23,21 @@ fn one(document: &Document, found: &Diagnostic) -> Value {
         Severity::Warning => 2,
         Severity::Note => 3,
     };
-    let mut message = format!(
-        "{}\nexpected: {}",
+    let hint = found.hint.as_deref();
+    let message = [
         found.message_with_file(),
-        found.expected
+        format!("expected: {}", found.expected),
+        hint.map_or_else(String::new, |hint| format!("help: {hint}")),
+    ];
+    let message = message.join(
+        "
+",
     );
-    if let Some(hint) = &found.hint {
-        message += &format!("\nhelp: {hint}");
-    }
     let mut said = json!({
         "range": document.range(shown(document, found.span)),
         "severity": severity,
         "source": "halflight",
-        "message": message,
+        "message": message.trim_end(),
     });
     let Shown { file, position, .. } = found.shown(document.text());
     if let Some(uri) = file.and_then(|file| uri::beside(&document.uri, file)) {

@@ -17,39 +17,37 @@ pub(crate) fn at(document: &Document, at: usize) -> Value {
     let component = field.kind.component_names()[place.component];
     let space = if component.is_empty() { "" } else { " " };
     let name = source.name(place.node);
-    let mut said = format!(
-        "**{name}** · `{}{space}{component}`\n\n{}",
-        field.key, field.doc
-    );
-    said += &format!("\n\n{}", allowed(field));
-    for words in [value(document, &place), users(document, &place)]
-        .into_iter()
-        .flatten()
-    {
-        said += &format!("\n\n{words}");
-    }
-    answer(document, place.span, said)
+    let words = [
+        Some(format!("**{name}** · `{}{space}{component}`", field.key)),
+        Some(field.doc.to_owned()),
+        Some(allowed(field)),
+        value(document, &place),
+        users(document, &place),
+    ];
+    let words: Vec<_> = words.into_iter().flatten().collect();
+    answer(document, place.span, &words.join("\n\n"))
 }
 
-/// A node's name and comment, where no field is.
+/// A node's name, comment and fields, where none of them is.
 fn of_node(document: &Document, at: usize) -> Value {
     let Some(node) = document.source.node_at(Span::at(at)) else {
         return Value::Null;
     };
-    let mut said = format!("**{}**", document.source.name(node));
-    if let Some(comment) = document.source.comment(node) {
-        said += &format!(" · {comment}");
-    }
-    let span = document.source.span(node);
-    let own = if span.touches(Span::at(at)) {
-        span
-    } else {
-        Span::at(at)
+    let name = document.source.name(node);
+    let title = match document.source.comment(node) {
+        Some(comment) => format!("**{name}** · {comment}\n"),
+        None => format!("**{name}**\n"),
     };
-    answer(document, own, said)
+    let fields = document.source.fields(node).into_iter();
+    let fields = fields.map(|placed| format!("- `{}` {}", placed.field.key, placed.field.doc));
+    let said: Vec<_> = std::iter::once(title).chain(fields).collect();
+    let span = document.source.span(node);
+    let own = Some(span).filter(|span| span.touches(Span::at(at)));
+    let own = own.unwrap_or_else(|| Span::at(at));
+    answer(document, own, &said.join("\n"))
 }
 
-fn answer(document: &Document, span: Span, said: String) -> Value {
+fn answer(document: &Document, span: Span, said: &str) -> Value {
     json!({
         "contents": { "kind": "markdown", "value": said },
         "range": document.range(span),

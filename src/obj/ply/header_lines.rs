@@ -31,8 +31,8 @@ impl<'t> Lines<'t> {
 impl Lines<'_> {
     /// The number of the line that a byte is on, from 1.
     pub(super) fn line_of(&self, at: usize) -> usize {
-        let before = self.bytes[..at].iter();
-        1 + before.filter(|&&byte| byte == self.end).count()
+        let lines = self.bytes[..at].split(|byte| *byte == self.end);
+        lines.count()
     }
 }
 

@@ -245,7 +245,7 @@ fn explain(shared: &Shared, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     match field.sources.get(shared.cursor.component) {
         Some(Provenance::Default) => say("Not in the text: this is the default.", theme::DIM),
         Some(Provenance::Inherited) => {
-            say("A change states it for this object alone.", theme::DIM);
+            say("Inherited: a change affects only this object.", theme::DIM);
         }
         Some(Provenance::WorkingView) => {
             say("The working view differs from the text.", theme::WARNING);

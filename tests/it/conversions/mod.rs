@@ -1,4 +1,4 @@
-//! Every sample scene in the other two languages: where nothing is reported lost, the pictures are
+//! Every sample scene in every other language: where nothing is reported lost, the pictures are
 //! the same.
 
 mod random;

@@ -56,8 +56,10 @@ pub(crate) struct Own {
     pub(super) pushed: HashMap<usize, DAffine3>,
     /// The commands that state each material.
     pub(super) stated: Vec<[Option<usize>; 5]>,
-    /// The number of objects that catch what each command states, by its index.
-    pub(super) catches: HashMap<usize, usize>,
+    /// The number of objects that inherit what each command states, by its index.
+    pub(super) inheritors: HashMap<usize, usize>,
+    /// The first and the last object of each material. Those between have it too, or none.
+    pub(super) ends: Vec<[usize; 2]>,
     /// The number of pushes that are open at the end of the text, and the transforms below them.
     pub(super) open: usize,
     pub(super) end: DAffine3,
@@ -165,8 +167,8 @@ impl<'a> Lowering<'a> {
     /// Warns of a camera that a later one replaces, and of its errors.
     fn superseded(&mut self, at: usize) {
         let before = std::mem::take(&mut self.reader.report);
-        let read = self.reader.read(at);
-        if let Some((numbers, read)) = read.as_ref().and_then(|read| Some((read.numbers()?, read)))
+        if let Some(read) = self.reader.read(at)
+            && let Some(numbers) = read.numbers()
         {
             let mut view = view::DEFAULT;
             view[..numbers.len()].copy_from_slice(numbers);
@@ -340,7 +342,7 @@ impl<'a> Lowering<'a> {
     }
 }
 
-/// The places of a camera with these numbers.
+/// The places of a camera whose numbers are at these spans.
 fn camera_spans(spans: &[Span]) -> CameraSpans {
     CameraSpans {
         eye: view::VIEW.eye.span(spans),

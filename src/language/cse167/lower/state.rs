@@ -20,16 +20,16 @@ use text::{Diagnostic, Span};
 
 /// The commands of a material, in the order of its fields.
 pub(in crate::cse167) const MATERIAL: [&Record; 5] =
-    [&AMBIENT, &DIFFUSE, &SPECULAR, &EMISSION, &SHININESS];
+    [&AMBIENT, &DIFFUSE, &SPECULAR, &SHININESS, &EMISSION];
 
-/// Their values where none stands; only the first counts of the last.
+/// The values in force where no command states one; of the shininess only the first number counts.
 pub(in crate::cse167) const DEFAULTS: [[f64; 3]; 5] =
-    [[0.2; 3], [0.0; 3], [0.0; 3], [0.0; 3], [1.0; 3]];
+    [[0.2; 3], [0.0; 3], [0.0; 3], [1.0; 3], [0.0; 3]];
 
 /// The state at a place in the text.
 #[derive(Clone, Debug)]
 pub(super) struct State {
-    /// The values of the material's commands; only the first counts of the last.
+    /// The values of the material's commands; of the shininess only the first number counts.
     values: [Rgb; 5],
     /// The commands that state them.
     pub(super) stated: [Option<usize>; 5],
@@ -135,7 +135,7 @@ impl Lowering<'_> {
         if let Some(&known) = self.materials.keys.get(&stated) {
             return known;
         }
-        let [ambient, diffuse, specular, emission, shininess] = self.state.values;
+        let [ambient, diffuse, specular, shininess, emission] = self.state.values;
         let index = self.materials.all.len();
         let gloss = Gloss {
             specular,
@@ -187,13 +187,20 @@ impl Lowering<'_> {
             self.reader.places.uses.extend(places);
         }
         let places = &mut self.reader.places;
-        let materials = places.objects().iter();
-        let materials = materials.flat_map(|object| object.of(Category::Material));
-        let mut catches = HashMap::new();
-        for command in materials.flat_map(|at| self.materials.stated[at]).flatten() {
-            *catches.entry(command).or_default() += 1;
+        let mut inheritors = HashMap::new();
+        let mut ends = vec![[usize::MAX, 0]; self.materials.stated.len()];
+        for (object, place) in places.objects().iter().enumerate() {
+            let Some(material) = place.of(Category::Material).next() else {
+                continue;
+            };
+            let [first, last] = &mut ends[material];
+            (*first, *last) = (object.min(*first), object);
+            for command in self.materials.stated[material].into_iter().flatten() {
+                *inheritors.entry(command).or_default() += 1;
+            }
         }
-        places.own.catches = catches;
+        places.own.inheritors = inheritors;
+        places.own.ends = ends;
         places.own.stated = std::mem::take(&mut self.materials.stated);
     }
 }

@@ -274,4 +274,12 @@ fn a_light_whose_place_is_times_0_moves() {
     apply(&mut moved, &edits);
     let expected = text.replace("x='1' y='2' value='0'", "x='0.5' y='0' value='1' z=\"3\"");
     assert_eq!(moved, expected);
+    let text =
+        "<xml><scene><object type='sphere'><translate x='1' value='0'/></object></scene></xml>";
+    let (source, _) = read(text);
+    let edits = source.motion(&[Node::Object(0)], &by, 2).expect("it moves");
+    let mut moved = text.to_owned();
+    apply(&mut moved, &edits);
+    let expected = text.replace("x='1' value='0'", "x='0.5' value='1' z=\"3\"");
+    assert_eq!(moved, expected);
 }

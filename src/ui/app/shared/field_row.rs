@@ -94,7 +94,7 @@ pub enum Provenance {
     Text,
     /// It is a default, absent from the text.
     Default,
-    /// The text states it for several objects, or for none, and could state it for this one.
+    /// The text states it for several objects; a change states it for this one alone.
     Inherited,
     /// It is from the working view, which differs from the text here.
     WorkingView,
