@@ -378,11 +378,11 @@ enum Subcommands {
         /// Print the lines to add to an editor's configuration instead
         #[arg(long, value_name = "EDITOR", value_parser = editors())]
         print_config: Option<lsp::Editor>,
-        /// Use standard input and output, as always
-        #[arg(long, hide = true)]
+        /// Ignored: some editors give it, though nothing else is possible
+        #[arg(long)]
         stdio: bool,
-        /// The number of the editor's process
-        #[arg(long = "clientProcessId", value_name = "N", hide = true)]
+        /// Ignored: the number of the editor's process
+        #[arg(long = "clientProcessId", value_name = "N")]
         client: Option<u32>,
     },
     /// Report what was detected about the terminal and the machine, and why
