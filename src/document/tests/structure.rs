@@ -206,12 +206,19 @@ fn values(language: Language, text: &str) -> BTreeMap<String, isize> {
     let mut document = Document::new(language, text.to_owned());
     document.lower(&Meshes::default()).expect("there is memory");
     let mut values = BTreeMap::new();
-    // The materials of `.test` are those of its objects: they come and go with them.
-    let is_own = |node: &Node| language != Language::Cse167 || !matches!(node, Node::Material(_));
-    for node in document.source().nodes().iter().filter(is_own) {
+    for node in document.source().nodes().iter() {
+        let own = document.source().span(node);
         for placed in document.source().fields(node) {
             let is_name = matches!(placed.field.kind, Kind::Reference(_) | Kind::Name(_));
-            if is_name || placed.field.key == "name" {
+            // The materials of `.test`, and what objects have of them, come and go with objects.
+            let is_here = |span: &Span| own.range().contains(&span.start());
+            let is_of_material = language == Language::Cse167
+                && match node {
+                    Node::Material(_) => true,
+                    Node::Object(_) => !placed.is_explicit() || !placed.spans.iter().all(is_here),
+                    _ => false,
+                };
+            if is_name || is_of_material || placed.field.key == "name" {
                 continue;
             }
             for (component, span) in placed.spans.iter().enumerate() {
@@ -225,19 +232,23 @@ fn values(language: Language, text: &str) -> BTreeMap<String, isize> {
     values
 }
 
-/// Whether both sides have deleted or changed the same node: that may then have happened once.
+/// Whether both sides have deleted or changed nodes of the same text: that may then have happened once.
 fn share_a_node(language: Language, base: &str, sides: [&str; 2]) -> bool {
     let [base, mine, theirs] = [base, sides[0], sides[1]].map(|text| {
         let mut document = Document::new(language, text.to_owned());
         document.lower(&Meshes::default()).expect("there is memory");
         let source = document.source();
-        let spans = source.nodes().iter().map(|node| source.span(node));
-        spans
-            .map(|span| span.of(text).to_owned())
-            .collect::<BTreeSet<_>>()
+        let mut nodes: BTreeMap<String, usize> = BTreeMap::new();
+        for node in source.nodes().iter() {
+            let own = source.span(node).of(text).to_owned();
+            *nodes.entry(own).or_default() += 1;
+        }
+        nodes
     });
-    let changed = |side| base.difference(side).collect::<BTreeSet<_>>();
-    !changed(&mine).is_disjoint(&changed(&theirs))
+    base.iter().any(|(own, count)| {
+        let left = [&mine, &theirs].map(|side| side.get(own).copied().unwrap_or(0));
+        left.iter().all(|left| left < count)
+    })
 }
 
 /// The values that a merge has changed, of fields that only one side or none changed.
