@@ -4,6 +4,7 @@ use proptest::sample::{Index, select};
 use super::*;
 use language::Node;
 
+mod losses;
 mod steps;
 mod structure;
 
