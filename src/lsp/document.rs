@@ -21,13 +21,16 @@ pub(crate) const LONGEST: usize = u32::MAX as usize;
 /// A text that the editor has open.
 #[derive(Debug)]
 pub(crate) struct Document {
+    /// Its name in messages.
     pub(crate) uri: String,
     /// The file that it is, or would be.
     path: PathBuf,
+    /// The client's number for the text, which may be null.
     pub(crate) version: Value,
     pub(crate) source: Source,
     lines: Lines,
     encoding: Encoding,
+    /// What is wrong with the text as it was last read.
     pub(crate) findings: Findings,
     /// Whether it is a scene by content; it stays one while it is edited.
     pub(crate) is_scene: bool,

@@ -94,7 +94,9 @@ impl Lines {
     /// A line without its end.
     fn text<'t>(&self, text: &'t str, line: usize) -> (usize, &'t str) {
         let start = self.starts[line] as usize;
-        (start, &text[start..line_end(text, start)])
+        let next = self.starts.get(line + 1);
+        let end = next.map_or(text.len(), |next| *next as usize);
+        (start, text[start..end].trim_end_matches(['\r', '\n']))
     }
 
     /// The offset of a position: the end of the line if that is shorter, the end of the text if it has
