@@ -294,7 +294,8 @@ fn edits_of_a_new_scene_without_a_file_are_offered_in_a_new_scene() {
     session.wait_for("a new scene: :w FILE writes it");
     session.send("\rj0.75\r");
     session.wait_for("[+]");
-    while place.recovery_files().is_empty() {
+    // The file is there before what it holds.
+    while place.kept_texts().is_empty() {
         session.drain(Duration::from_millis(1));
     }
     kill(session.process_id(), Signal::KILL);
