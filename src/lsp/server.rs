@@ -313,17 +313,12 @@ fn messages(findings: &Findings) -> impl Iterator<Item = String> {
     findings.iter().map(|found| found.message.clone())
 }
 
-/// What editors call these languages, if they name them: others are no scenes, whatever their extension.
-const KNOWN_IDS: [&str; 5] = ["", "halflight", "plaintext", "text", "xml"];
-
 /// The file of a URI and its language, by its name or, if it has none yet, by the editor's word for the
 /// language.
 fn file_of(uri: &str, id: &str) -> Option<(PathBuf, Language)> {
     let path = uri::path(uri).unwrap_or_else(|| Path::new(uri).to_owned());
-    let by_id = Language::of_extension(id);
     let by_name = Language::of_path(&path).ok();
-    let is_foreign = by_id.is_none() && !KNOWN_IDS.contains(&id);
-    let language = by_name.or(by_id).filter(|_| !is_foreign)?;
+    let language = by_name.or_else(|| Language::of_extension(id))?;
     Some((path, language))
 }
 

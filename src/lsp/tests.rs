@@ -209,7 +209,8 @@ fn what_is_wrong_is_published() {
             "package main\n\nfunc main() {\n\tpoint(1, 2)\n}\n",
             Some(vec![]),
         ),
-        ("file:///none/a.test", "go", TEXT, None),
+        // Vim takes it for a configuration, as it begins with `#`.
+        ("file:///none/a.test", "conf", TEXT, Some(vec![])),
         // A scene that is not whole yet.
         (
             "file:///none/a.xml",
