@@ -60,6 +60,7 @@ use view::Numbers;
 pub use convert::{Converted, convert};
 pub use field_spans::{FieldSpans, Wanted};
 pub use form::{Along, Motion};
+pub use listed::Visibility;
 pub use memory_estimate::fits;
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use picture_lint::{Outlook, Prospect, outlook};
@@ -281,15 +282,6 @@ pub struct Before<'a> {
     pub diagnostics: &'a Findings,
 }
 
-/// Whether an object is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Visibility {
-    /// It is.
-    Shown,
-    /// It is not.
-    Hidden,
-}
-
 /// A text with its tree and places.
 pub trait Editable: Debug {
     /// The current text.
@@ -344,6 +336,9 @@ pub trait SceneText: Editable + StructureEdits {
     /// The meaningful parts of the text, in order: tokens, and whole comments. Between them is only
     /// white space.
     fn leaves(&self) -> Vec<Span>;
+
+    /// Whether a leaf is a comment.
+    fn is_comment(&self, leaf: Span) -> bool;
 
     /// The text of a leaf.
     fn leaf_text(&self, leaf: Span) -> &str {

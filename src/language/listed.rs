@@ -6,6 +6,15 @@ use rayon::prelude::*;
 
 use super::{Node, SceneText, Source};
 
+/// Whether an object is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Visibility {
+    /// It is.
+    Shown,
+    /// It is not.
+    Hidden,
+}
+
 impl Source {
     /// The rows of the nodes whose name or comment contains `words`, in lower case, ascending;
     /// `among` limits the search to some rows.

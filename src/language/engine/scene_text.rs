@@ -232,6 +232,10 @@ where
         place.of(Category::Material).next()
     }
 
+    fn is_comment(&self, leaf: Span) -> bool {
+        self.tree.at(leaf).is_empty()
+    }
+
     fn comment_marks(&self) -> [&'static str; 2] {
         [L::COMMENTS[0], ""]
     }

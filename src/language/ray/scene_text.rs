@@ -2,7 +2,7 @@
 
 use super::origins::distribute;
 use super::schema::{AMBIENT, LIGHT, VIEW};
-use super::tree::comment_of_line;
+use super::tree::{begins_comment, comment_of_line};
 use super::view_comment::PLACES;
 use super::{Source, incremental, lower, memory_estimate, view};
 use crate::rendering::{self, Around};
@@ -149,6 +149,10 @@ impl SceneText for Source {
 
     fn view_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit> {
         view::edits(&self.text, &self.origins.view, before, camera)
+    }
+
+    fn is_comment(&self, leaf: Span) -> bool {
+        begins_comment(leaf.of(&self.text).as_bytes())
     }
 
     fn comment_marks(&self) -> [&'static str; 2] {

@@ -233,6 +233,10 @@ impl SceneText for Source {
         view::edits(self, before, camera)
     }
 
+    fn is_comment(&self, leaf: Span) -> bool {
+        leaf.of(&self.text).starts_with("<!--")
+    }
+
     fn comment_marks(&self) -> [&'static str; 2] {
         ["<!--", "-->"]
     }

@@ -29,10 +29,7 @@ fn one(document: &Document, found: &Diagnostic) -> Value {
         format!("expected: {}", found.expected),
         hint.map_or_else(String::new, |hint| format!("help: {hint}")),
     ];
-    let message = message.join(
-        "
-",
-    );
+    let message = message.join("\n");
     let mut said = json!({
         "range": document.range(shown(document, found.span)),
         "severity": severity,

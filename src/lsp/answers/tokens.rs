@@ -1,4 +1,4 @@
-//! The kinds of words, for editors that do not know the language.
+//! Highlighting, for editors that do not know the language.
 
 use language::Language;
 use serde_json::{Value, json};
@@ -20,10 +20,6 @@ pub(crate) fn within(document: &Document, span: Span) -> Value {
     if source.language() == Language::Xml {
         return json!({ "data": [] });
     }
-    let marks = match source.language() {
-        Language::Ray => ["//", r"\\"],
-        _ => ["#", "//"],
-    };
     let mut data: Vec<usize> = Vec::new();
     let mut before = [0, 0];
     for leaf in source
@@ -32,7 +28,7 @@ pub(crate) fn within(document: &Document, span: Span) -> Value {
         .filter(|leaf| span.touches(*leaf))
     {
         let word = source.leaf_text(leaf);
-        let kind = if marks.iter().any(|mark| word.starts_with(mark)) {
+        let kind = if source.is_comment(leaf) {
             0
         } else if parse_number(word).is_ok() {
             1
@@ -51,4 +47,31 @@ pub(crate) fn within(document: &Document, span: Span) -> Value {
         before = [line, character];
     }
     json!({ "data": data })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use super::*;
+    use crate::positions::Encoding;
+
+    #[test]
+    fn comments_are_those_of_the_language() {
+        for (language, text, kinds) in [
+            (Language::Ray, "// c\n#1 2\n", [0, 2, 1]),
+            (Language::Dat, "// c\nmat 2\n", [0, 2, 1]),
+            (Language::Dat, "mat #2 3\n", [2, 2, 1]),
+            (Language::Cse167, "spp 1 # c\n", [2, 1, 0]),
+            (Language::Cse167, "spp 1 // c\n", [2, 1, 2]),
+        ] {
+            let file = (PathBuf::from("/none/a"), language);
+            let uri = "file:///none/a".to_owned();
+            let document = Document::new(uri, file, text.to_owned(), Encoding::Utf8);
+            let tokens = all(&document);
+            let data = tokens["data"].as_array().expect("a list");
+            let found: Vec<_> = data.chunks(5).take(3).map(|token| &token[3]).collect();
+            assert_eq!(found, kinds, "{text}");
+        }
+    }
 }
