@@ -321,7 +321,7 @@ Examples:
   halflight render scene.ray -o scene.bmp         render a picture
   halflight render scene.ray -o - --format ppm | ssh far 'cat > scene.ppm'
   halflight check scenes/*.ray                    report errors and warnings
-  halflight lsp --print-config helix              let an editor show errors and meanings
+  halflight lsp --print-config helix              set up an editor that shows errors as you type
   halflight doctor                                report what was detected, and why
   halflight scene.ray --keys a.keys --dump-frame a.png    draw the screen after these keys
 
@@ -373,15 +373,15 @@ enum Subcommands {
     },
     /// Print the manual page
     Man,
-    /// Tell an editor what its text means, by the Language Server Protocol on standard input and output
+    /// Run a language server for an editor, on standard input and output
     Lsp {
         /// Print the lines to add to an editor's configuration instead
         #[arg(long, value_name = "EDITOR", value_parser = editors())]
         print_config: Option<lsp::Editor>,
-        /// Ignored: some editors give it, though nothing else is possible
+        /// Ignored; some editors pass it
         #[arg(long)]
         stdio: bool,
-        /// Ignored: the number of the editor's process
+        /// Ignored; some editors pass their process ID
         #[arg(long = "clientProcessId", value_name = "N")]
         client: Option<u32>,
     },
