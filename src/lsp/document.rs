@@ -32,6 +32,8 @@ pub(crate) struct Document {
     encoding: Encoding,
     /// What is wrong with the text as it was last read.
     pub(crate) findings: Findings,
+    /// The messages of the findings that the editor shows.
+    pub(crate) shown: HashSet<String>,
     /// Whether it is a scene by content; it stays one while it is edited.
     pub(crate) is_scene: bool,
     assets: Assets,
@@ -66,6 +68,7 @@ impl Document {
             source: Source::new(language, Arc::new(text)),
             encoding,
             findings: Findings::default(),
+            shown: HashSet::new(),
             is_scene: false,
             assets: Assets::new(&[]),
         };

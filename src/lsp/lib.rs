@@ -1,4 +1,4 @@
-//! An editor's questions about a scene's text, by the Language Server Protocol 3.17. Knows no interface.
+//! A language server for scenes, by the Language Server Protocol 3.17. Knows no interface.
 //!
 //! One inbox, one thread that answers, in the order of the messages; another thread reads.
 
@@ -27,14 +27,14 @@ pub use setup::Editor;
 /// Why a session ended otherwise than by the client's wish.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// The stream of messages cannot be read on.
+    /// The stream of messages is broken.
     #[error("{0}")]
     Broken(String),
     /// An answer cannot be written.
-    #[error("cannot answer: {0}")]
+    #[error("cannot write a response: {0}")]
     Unanswered(#[from] io::Error),
     /// The client ended the session without `shutdown`.
-    #[error("the editor left without a `shutdown` request")]
+    #[error("the editor disconnected without a `shutdown` request")]
     Quit,
 }
 

@@ -1,6 +1,6 @@
 //! The session with one editor.
 
-use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 use std::mem;
 use std::path::{Path, PathBuf};
@@ -26,7 +26,7 @@ const INVALID_PARAMETERS: i32 = -32602;
 const NOT_INITIALISED: i32 = -32002;
 const REQUEST_FAILED: i32 = -32803;
 
-/// Why a request has no answer.
+/// Why a request failed: a code and a message.
 struct Refusal(i32, String);
 
 /// Whether the session goes on.
@@ -72,19 +72,19 @@ impl<W: Write> Server<W> {
         }
     }
 
-    /// When something is due without a message.
+    /// When the next document is due.
     pub(crate) fn next_due(&self) -> Option<Instant> {
         self.due.values().min().copied()
     }
 
-    /// Does what is due.
+    /// Publishes the documents that are due.
     pub(crate) fn do_due(&mut self, now: Instant) -> io::Result<()> {
         let is_due = |(uri, at): (&String, &Instant)| (*at <= now).then(|| uri.clone());
         let due: Vec<_> = self.due.iter().filter_map(is_due).collect();
         due.iter().try_for_each(|uri| self.publish(uri))
     }
 
-    /// Takes a message of the client's.
+    /// Handles a message from the client.
     pub(crate) fn take(&mut self, message: &Value) -> io::Result<Next> {
         if message.is_null() {
             self.lose()?;
@@ -107,16 +107,16 @@ impl<W: Write> Server<W> {
             (Some("exit"), None) if self.state == State::ShutDown => return Ok(Next::End),
             (Some("exit"), None) => return Ok(Next::Quit),
             (Some(method), None) if self.state == State::Running => {
-                self.note(method, parameters)?;
+                self.notification(method, parameters)?;
             }
-            // Notes out of turn, answers to nothing, and what is no message.
+            // Notifications out of turn, responses, and anything else.
             _ => {}
         }
         Ok(Next::Message)
     }
 
-    /// Takes what needs no answer. What is unknown or makes no sense has no effect.
-    fn note(&mut self, method: &str, parameters: &Value) -> io::Result<()> {
+    /// Handles a notification. An unknown or malformed one has no effect.
+    fn notification(&mut self, method: &str, parameters: &Value) -> io::Result<()> {
         let document = &parameters["textDocument"];
         let Some(uri) = document["uri"].as_str() else {
             return Ok(());
@@ -155,23 +155,22 @@ impl<W: Write> Server<W> {
         let changes = parameters["contentChanges"].as_array();
         if !changes.is_some_and(|changes| document.change(changes)) {
             self.close(uri)?;
-            return self.complain(&format!("a change of {uri} makes no sense: open it again"));
+            return self.complain(&format!("received an invalid change of {uri}; reopen it"));
         }
         document.version = named["version"].clone();
         self.changed.insert(uri.to_owned());
         Ok(())
     }
 
-    /// Reads the texts that have changed. What is wrong with them now is shown at once if it was before;
-    /// otherwise it may be an unfinished word.
+    /// Lowers the texts that have changed. Findings are published at once if all of them are shown already;
+    /// new ones may come from an unfinished word.
     pub(crate) fn settle(&mut self) -> io::Result<()> {
         for uri in mem::take(&mut self.changed) {
             let Some(document) = self.documents.get_mut(&uri) else {
                 continue;
             };
-            let before: HashSet<_> = messages(&document.findings).collect();
             document.lower();
-            if messages(&document.findings).all(|message| before.contains(&message)) {
+            if messages(&document.findings).all(|message| document.shown.contains(&message)) {
                 self.publish(&uri)?;
             } else {
                 self.due.insert(uri, Instant::now() + PATIENCE);
@@ -192,15 +191,15 @@ impl<W: Write> Server<W> {
         }
     }
 
-    /// Takes a message that cannot be read: the texts may differ from the editor's from here on.
+    /// Handles a message that cannot be parsed: from here on the texts may differ from the editor's.
     fn lose(&mut self) -> io::Result<()> {
-        let error = json!({ "code": PARSE_ERROR, "message": "a message is not JSON" });
+        let error = json!({ "code": PARSE_ERROR, "message": "not JSON" });
         let answer = json!({ "jsonrpc": "2.0", "id": null, "error": error });
         wire::write(&mut self.output, &answer)?;
         for uri in self.documents.keys().cloned().collect::<Vec<_>>() {
             self.close(&uri)?;
         }
-        self.complain("a message is not JSON: open the scenes again")
+        self.complain("received a message that is not JSON; reopen the scenes")
     }
 
     fn complain(&mut self, message: &str) -> io::Result<()> {
@@ -214,8 +213,9 @@ impl<W: Write> Server<W> {
     /// Shows what is wrong with a document.
     fn publish(&mut self, uri: &str) -> io::Result<()> {
         self.due.remove(uri);
-        match self.documents.get(uri) {
+        match self.documents.get_mut(uri) {
             Some(document) => {
+                document.shown = messages(&document.findings).collect();
                 let found = diagnostics::published(document);
                 self.say("textDocument/publishDiagnostics", &found)
             }
@@ -241,11 +241,11 @@ impl<W: Write> Server<W> {
                 Ok(Value::Null)
             }
             (_, State::Begun) => {
-                let reason = "the first request is initialize".to_owned();
+                let reason = "the first request must be initialize".to_owned();
                 Err(Refusal(NOT_INITIALISED, reason))
             }
             ("initialize", _) | (_, State::ShutDown) => {
-                let reason = format!("{method} is out of turn");
+                let reason = format!("{method} is not allowed now");
                 Err(Refusal(INVALID_REQUEST, reason))
             }
             (_, State::Running) => self.answer_about(method, parameters),
@@ -254,7 +254,12 @@ impl<W: Write> Server<W> {
 
     /// Answers a question about a document: null about one that is no scene or too long.
     fn answer_about(&self, method: &str, parameters: &Value) -> Result<Value, Refusal> {
-        let missing = |what: &str| Refusal(INVALID_PARAMETERS, format!("{method}: no {what}"));
+        let missing = |what: &str| {
+            Refusal(
+                INVALID_PARAMETERS,
+                format!("{method}: {what} is missing or invalid"),
+            )
+        };
         let with = |answer: &dyn Fn(&Document) -> Result<Value, Refusal>| {
             let uri = parameters["textDocument"]["uri"].as_str();
             let uri = uri.ok_or_else(|| missing("textDocument.uri"))?;
@@ -301,7 +306,7 @@ impl<W: Write> Server<W> {
                 colours::presentation(document, range, &parameters["color"])
             }),
             _ => {
-                let reason = format!("{method} is not answered");
+                let reason = format!("{method} is not supported");
                 Err(Refusal(UNKNOWN_METHOD, reason))
             }
         }

@@ -1,4 +1,4 @@
-//! The lines that make an editor start the server.
+//! What to add to the configuration of an editor, so that it starts the server.
 
 /// An editor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -293,6 +293,36 @@ fn changes_are_taken_in_order() {
     );
 }
 
+/// However often the text changes in the meantime.
+#[test]
+fn new_errors_wait_until_the_text_rests() {
+    let word = |from: u32, text: &str| {
+        let range = json!({ "start": at(4, 0), "end": at(4, from) });
+        json!([{ "range": range, "text": text }])
+    };
+    let ask = json!({ "textDocument": { "uri": URI }, "position": at(3, 9) });
+    let all = said(vec![
+        open(URI, "", TEXT),
+        change(URI, 2, word(6, "sphre")),
+        request(7, "textDocument/hover", ask.clone()),
+        change(
+            URI,
+            3,
+            json!([{ "range": { "start": at(4, 13), "end": at(4, 13) }, "text": " " }]),
+        ),
+        request(8, "textDocument/hover", ask.clone()),
+        change(URI, 4, word(5, "sphere")),
+        request(9, "textDocument/hover", ask),
+    ]);
+    let published = all
+        .iter()
+        .filter(|message| message["method"] == "textDocument/publishDiagnostics");
+    let versions: Vec<_> = published
+        .map(|message| message["params"]["version"].clone())
+        .collect();
+    assert_eq!(versions, [json!(1), json!(4)]);
+}
+
 /// The text of a lost message is unknown, so that nothing is said of any text until it is opened again.
 #[test]
 fn a_message_that_is_not_json_ends_what_is_known() {

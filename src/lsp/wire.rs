@@ -17,7 +17,7 @@ pub(crate) enum Broken {
     #[error("cannot read a message: {0}")]
     Io(#[from] io::Error),
     /// A header is not one.
-    #[error("a message begins with `Content-Length: N`, not with `{0}`")]
+    #[error("expected a header such as `Content-Length: N`, not `{0}`")]
     Header(String),
     /// A message is longer than any text.
     #[error("a message of {0} bytes is too long")]
@@ -91,10 +91,10 @@ mod tests {
     fn broken_streams_are_told_apart() {
         for (stream, said) in [
             ("Content-Length: 5\r\n\r\n{}", "cannot read a message"),
-            ("Content-Length: 5", "not with `Content-Length: 5`"),
-            ("GET / HTTP/1.1\r\n\r\n", "not with `GET / HTTP/1.1`"),
-            ("\r\n{}", "not with ``"),
-            ("Content-Length: -1\r\n\r\n", "not with ``"),
+            ("Content-Length: 5", "not `Content-Length: 5`"),
+            ("GET / HTTP/1.1\r\n\r\n", "not `GET / HTTP/1.1`"),
+            ("\r\n{}", "not ``"),
+            ("Content-Length: -1\r\n\r\n", "not ``"),
             (
                 "Content-Length: 99999999999999\r\n\r\n",
                 "of 99999999999999 bytes is too long",

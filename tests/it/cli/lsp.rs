@@ -86,7 +86,7 @@ fn a_session_that_breaks_off_is_an_error() {
     let mut editor = Editor::start(&place);
     editor.send(&json!({ "id": 1, "method": "initialize", "params": {} }));
     editor.receive();
-    let said = "halflight lsp: the editor left without a `shutdown` request\n".to_owned();
+    let said = "halflight lsp: the editor disconnected without a `shutdown` request\n".to_owned();
     assert_eq!(editor.end(), (Some(1), said));
     let mut editor = Editor::start(&place);
     let input = editor.server.stdin.as_mut().expect("a pipe");
@@ -95,7 +95,7 @@ fn a_session_that_breaks_off_is_an_error() {
         .expect("it listens");
     let (code, said) = editor.end();
     assert_eq!(code, Some(1));
-    assert!(said.contains("not with `GET / HTTP/1.1`"), "{said}");
+    assert!(said.contains("not `GET / HTTP/1.1`"), "{said}");
 }
 
 #[test]
