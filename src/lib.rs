@@ -41,6 +41,7 @@
 //! | [`shards`] | blocks of unfinished pictures on disk: shards, checkpoints, traces of the interface, merging | scenes, tracing |
 //! | [`track`] | values over frames: reads track files, edits texts to show a frame | files, rendering |
 //! | [`watch`] | reports changes of paths on disk | what the files contain |
+//! | [`link`] | the socket between an editor's language server and a running interface, and the messages on it | editors' protocols, pictures |
 //! | [`ui`] | the terminal: the only room that knows ratatui and crossterm; a mode is a folder of `app`, a command a row of `app/command`, a key a row of its room | how pixels are computed |
 //! | [`batch`] | headless work: check, render, merge, show, compare, explain, convert, bench | terminals |
 //! | [`lsp`] | an editor's questions about a text: diagnostics, hover, symbols, rename, colours | the interface |
@@ -81,6 +82,7 @@ pub use file;
 pub use geometry;
 pub use image_file;
 pub use language;
+pub use link;
 pub use lsp;
 pub use memory;
 pub use obj;

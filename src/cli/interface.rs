@@ -127,6 +127,7 @@ impl InterfaceArguments {
             pixels: self.pixels.map(PixelsChoice::value),
             mouse: self.no_mouse.then_some(Mouse::Off),
             editor: None,
+            follow: None,
             rendering: self.rendering.rendering(self.spp),
             threads: self.threads.map(usize::from),
             assets: self.assets.folders,

@@ -65,6 +65,7 @@ fn options_reach_the_interface() {
             pixels: Some(ui::Pixels::Octant),
             mouse: Some(Mouse::Off),
             editor: None,
+            follow: None,
             rendering: Rendering {
                 spp: Some(4),
                 depth: Some(0),

@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use link::Follow;
 use scene::{RenderKey, Rendering, Values};
 use ui::terminal::{Choice, ColourDepth, Mouse};
 use ui::{Options, Pixels, Theme};
@@ -119,6 +120,16 @@ const INTERFACE: &[Setting] = &[
         kind: Kind::Text {
             set: |options, text| options.editor = Some(text.to_owned()),
             get: |options| options.editor.as_deref(),
+        },
+    },
+    Setting {
+        name: "follow",
+        words: "When to follow a scene that is open in an editor with `halflight lsp`",
+        default: Cow::Borrowed("\"typing\""),
+        kind: Kind::Word {
+            words: || Follow::NAMED.map(|(name, _)| name).to_vec(),
+            set: |options, word| options.follow = Follow::named(word),
+            get: |options| options.follow.map(Follow::name),
         },
     },
     Setting {

@@ -37,18 +37,54 @@ impl Difference {
         };
         let mut places = Vec::with_capacity(changes.len());
         for change in changes {
-            if change.base.len().max(change.other.len()) <= LONG {
-                places.extend(places_of([text, other], change));
-            } else {
-                places.push(change.other);
-            }
+            let parts = parts_of([text, other], change).into_iter();
+            places.extend(parts.map(|part| part.other));
         }
         Some(Self { edit, places })
     }
 }
 
-/// The places of a change, line by line: lines replaced one by one are places of their own.
-fn places_of([text, other]: [&str; 2], change: Change) -> Vec<Span> {
+/// The edits that turn `text` into `other`: sorted, disjoint, and no longer than the lines that differ need.
+pub fn edits_between(text: &str, other: &str) -> Vec<Edit> {
+    let changes = changes(text, other, FINE).into_iter();
+    let parts = changes.flat_map(|change| {
+        let parts = parts_of([text, other], change);
+        // A line end may be one only in one of the texts.
+        if are_whole([text, other], change, &parts) {
+            parts
+        } else {
+            vec![change]
+        }
+    });
+    let edit = |part: Change| Edit {
+        span: part.base,
+        text: part.other.of(other).to_owned(),
+    };
+    parts.map(edit).collect()
+}
+
+/// Whether nothing but its parts differs in a change.
+fn are_whole([text, other]: [&str; 2], change: Change, parts: &[Change]) -> bool {
+    let mut at = [change.base.start(), change.other.start()];
+    let ends = Change {
+        base: Span::at(change.base.end()),
+        other: Span::at(change.other.end()),
+    };
+    parts.iter().chain([&ends]).all(|part| {
+        let gaps = (
+            text.get(at[0]..part.base.start()),
+            other.get(at[1]..part.other.start()),
+        );
+        at = [part.base.end(), part.other.end()];
+        gaps.0.is_some() && gaps.0 == gaps.1
+    })
+}
+
+/// The parts of a change, line by line: lines replaced one by one are changes of their own.
+fn parts_of([text, other]: [&str; 2], change: Change) -> Vec<Change> {
+    if LONG < change.base.len().max(change.other.len()) {
+        return vec![change];
+    }
     let ends = [(text, change.base.end()), (other, change.other.end())];
     let is_whole = ends
         .iter()
@@ -70,8 +106,12 @@ fn places_of([text, other]: [&str; 2], change: Change) -> Vec<Span> {
     let (from, to) = (0..lines[0].len(), 0..lines[1].len());
     let Ok(()) = myers::diff(&mut capture, &lines[0], from, &lines[1], to);
     // A line end may be one only in one of the texts.
-    let clip = |at: usize| at.clamp(change.other.start(), change.other.end());
-    let mut places = Vec::new();
+    let clip = |span: Span, within: Span| {
+        let [start, end] =
+            [span.start(), span.end()].map(|at| at.clamp(within.start(), within.end()));
+        Span::new(start, end)
+    };
+    let mut parts = Vec::new();
     for op in capture.into_inner().into_ops() {
         let (lines, others) = (op.old_range(), op.new_range());
         let pairs: Vec<_> = if lines.len() == others.len() {
@@ -82,17 +122,19 @@ fn places_of([text, other]: [&str; 2], change: Change) -> Vec<Span> {
         } else {
             vec![[lines, others]]
         };
-        places.extend(pairs.into_iter().filter_map(|[lines, others]| {
-            let start = new[others.start];
-            let [_, changed] = text::difference(
-                &text[old[lines.start]..old[lines.end]],
-                &other[start..new[others.end]],
+        parts.extend(pairs.into_iter().filter_map(|[lines, others]| {
+            let starts = [old[lines.start], new[others.start]];
+            let [replaced, changed] = text::difference(
+                &text[starts[0]..old[lines.end]],
+                &other[starts[1]..new[others.end]],
             )?;
-            let changed = changed.shifted(start);
-            Some(Span::new(clip(changed.start()), clip(changed.end())))
+            Some(Change {
+                base: clip(replaced.shifted(starts[0]), change.base),
+                other: clip(changed.shifted(starts[1]), change.other),
+            })
         }));
     }
-    places
+    parts
 }
 
 /// The starts of the lines of a span, then its end.
@@ -143,6 +185,11 @@ mod tests {
             let found = Difference::of(&text, &other);
             let edit = found.as_ref().map(|found| found.edit.clone());
             prop_assert_eq!(edit, text::smallest_edit(&text, &other));
+            let mut applied = text.clone();
+            let edits = edits_between(&text, &other);
+            prop_assert!(edits.windows(2).all(|pair| pair[0].span.end() <= pair[1].span.start()));
+            text::apply(&mut applied, &edits);
+            prop_assert_eq!(applied, other.clone());
             if let Some(Difference { edit, places }) = found {
                 prop_assert!(!places.is_empty());
                 let of_edit = edit.placed();

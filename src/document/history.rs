@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::rebase::rebased;
 use super::steps::{State, StateId, StepName};
 use text::{Edit, Span};
 
@@ -61,6 +62,39 @@ impl History {
             first,
             newest: first,
             ..Self::default()
+        }
+    }
+
+    /// The history after edits from outside of the present text: the steps up to the first that they touch,
+    /// with texts of new numbers. Without edits, the same history.
+    pub(super) fn rebased(&self, outside: &[Edit]) -> Self {
+        let mut history = Self::after(self);
+        if outside.is_empty() {
+            history.clone_from(self);
+            history.commit();
+            history.record_nothing();
+            return history;
+        }
+        let newest = &mut history.newest.0;
+        let [undo, redo] = [&self.undo, &self.redo].map(|steps| {
+            let edits = steps.iter().rev().map(|step| &*step.edits);
+            let moved = rebased(edits, outside).into_iter();
+            let moved = moved.zip(steps.iter().rev()).map(|(edits, step)| {
+                *newest += 1;
+                Arc::new(Step {
+                    edits,
+                    name: step.name.clone(),
+                    state: StateId(*newest),
+                })
+            });
+            let mut moved: Vec<_> = moved.collect();
+            moved.reverse();
+            moved
+        });
+        Self {
+            undo,
+            redo,
+            ..history
         }
     }
 

@@ -9,6 +9,7 @@ mod hunks;
 mod merge;
 mod numbers;
 mod pieces;
+mod rebase;
 mod regions;
 mod sides;
 mod snapshot;
@@ -18,7 +19,7 @@ mod tests;
 mod timeline;
 mod windows;
 
-pub use difference::Difference;
+pub use difference::{Difference, edits_between};
 pub use merge::Merge;
 pub use numbers::Numbers;
 pub use pieces::{Conflict, Side};
@@ -47,6 +48,15 @@ pub struct Document {
     history: History,
     /// The longest change of the last undo or redo.
     longest: Span,
+}
+
+/// What becomes of the undo history when a text is taken from outside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Past {
+    /// It is cleared: undo must not return to what another program has replaced.
+    Cleared,
+    /// The steps remain up to the first whose place was changed.
+    Rebased,
 }
 
 /// The result of adopting a merge whose conflicts were decided.
@@ -240,11 +250,34 @@ impl Document {
     }
 
     /// Replaces the document, which must have no unsaved edits, by a text from outside; returns the
-    /// old one. Clears the history: undo must not return to what another program has replaced.
+    /// old one.
     #[must_use = "freeing it may take long"]
-    pub fn load(&mut self, mut document: Self) -> Self {
-        document.history = History::after(&self.history);
+    pub fn load(&mut self, mut document: Self, past: Past) -> Self {
+        document.history = match past {
+            Past::Cleared => History::after(&self.history),
+            Past::Rebased => {
+                let outside = edits_between(self.text(), document.text());
+                self.history.rebased(&outside)
+            }
+        };
         self.replace(document)
+    }
+
+    /// Replaces the document by the merge of its current state with a text from outside, whose changes are
+    /// no step; returns the old one.
+    #[must_use = "freeing it may take long"]
+    pub fn follow(&mut self, merged: Merged) -> Self {
+        self.load(merged.document, Past::Rebased)
+    }
+
+    /// The edits that lead from the saved text to this one: sorted, disjoint, each within a few lines.
+    pub fn unsaved_edits(&self) -> Vec<Edit> {
+        edits_between(&self.saved, self.text())
+    }
+
+    /// The edits that lead back to the saved text, see [`Document::unsaved_edits`].
+    pub fn edits_to_saved(&self) -> Vec<Edit> {
+        edits_between(self.text(), &self.saved)
     }
 
     /// Replaces the document by the merge of its current state with a text from outside, as one

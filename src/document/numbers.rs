@@ -4,7 +4,7 @@ use std::mem;
 use std::sync::Arc;
 
 use super::history::History;
-use super::{Difference, Document, Snapshot};
+use super::{Difference, Document, Past, Snapshot};
 use language::{Before, Lowered};
 use text::{Edit, Span, are_plain_numbers, difference};
 
@@ -75,6 +75,7 @@ impl Document {
         &mut self,
         numbers: Numbers,
         before: Before<'_>,
+        past: Past,
     ) -> Option<([Arc<String>; 2], Lowered)> {
         let Numbers { text, saved, edit } = numbers;
         let inverse = Edit {
@@ -86,7 +87,10 @@ impl Document {
             self.source.substitute(former, &inverse);
             return None;
         };
-        self.history = History::after(&self.history);
+        self.history = match past {
+            Past::Cleared => History::after(&self.history),
+            Past::Rebased => self.history.rebased(&[edit]),
+        };
         self.longest = Span::default();
         self.revision += 1;
         let former = [former, mem::replace(&mut self.saved, saved)];

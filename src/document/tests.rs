@@ -33,7 +33,7 @@ fn replace(document: &mut Document, theirs: &str) -> Result<(), Merge> {
         let merged = snapshot.merge(theirs, &Meshes::default());
         document.take(merged.expect("there is memory")?.0)
     } else {
-        document.load(theirs)
+        document.load(theirs, Past::Cleared)
     });
     assert!(!snapshot.is_of(document));
     check_tree(document);

@@ -1,4 +1,4 @@
-//! The folders of what is kept from one run to the next, below `halflight` in `$XDG_STATE_HOME` or in
+//! The folders of what is kept from one run to the next or shared between runs, below `halflight` in `$XDG_STATE_HOME` or in
 //! `~/.local/state`. Whatever is kept is read, written and removed through one of them.
 //!
 //! A folder is held open and all names are resolved relative to it, so that replacing it has no
@@ -27,13 +27,15 @@ pub enum Store {
     Edits,
     /// Full-size traces.
     Traces,
+    /// Sockets that editors connect to, which end with their runs.
+    Sockets,
 }
 
 impl Store {
     /// The folders below the state folder, outermost first.
     const fn names(self) -> &'static [&'static str] {
         match self {
-            Self::Sessions => &["halflight"],
+            Self::Sessions | Self::Sockets => &["halflight"],
             Self::Edits => &["halflight", "recovery"],
             Self::Traces => &["halflight", "traces"],
         }

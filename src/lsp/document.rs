@@ -1,7 +1,7 @@
 //! An open text: what the editor shows, lowered.
 
 use std::collections::HashSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use assets::Assets;
@@ -38,6 +38,10 @@ pub(crate) struct Document {
     pub(crate) is_scene: bool,
     assets: Assets,
 }
+
+/// A change that has no place in the text, or no text.
+#[derive(Debug)]
+pub(crate) struct InvalidChange;
 
 /// A field and one of its components, with its place.
 pub(crate) struct Place {
@@ -76,18 +80,27 @@ impl Document {
         document
     }
 
+    /// The path of its file.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
     pub(crate) fn text(&self) -> &str {
         self.source.text()
     }
 
-    /// Takes changes of the editor's, each of the text after those before; false, without any effect, if
-    /// one makes no sense.
-    pub(crate) fn change(&mut self, changes: &[Value]) -> bool {
+    /// Takes changes of the editor's, each of the text after those before; returns the edit that they
+    /// amount to, if they change anything.
+    ///
+    /// # Errors
+    ///
+    /// Fails, without any effect, if a change is invalid.
+    pub(crate) fn change(&mut self, changes: &[Value]) -> Result<Option<Edit>, InvalidChange> {
         let mut text = self.text().to_owned();
         let mut lines = self.lines.clone();
         for change in changes {
             let Some(new) = change.get("text").and_then(Value::as_str) else {
-                return false;
+                return Err(InvalidChange);
             };
             let span = match change.get("range") {
                 None | Some(Value::Null) => Some(Span::new(0, text.len())),
@@ -95,16 +108,17 @@ impl Document {
             };
             let Some(span) = span.filter(|span| text.len() - span.len() + new.len() <= LONGEST)
             else {
-                return false;
+                return Err(InvalidChange);
             };
             text.replace_range(span.range(), new);
             lines = Lines::of(&text);
         }
-        if let Some(edit) = smallest_edit(self.source.text(), &text) {
-            self.source.substitute(Arc::new(text), &edit);
+        let edit = smallest_edit(self.source.text(), &text);
+        if let Some(edit) = &edit {
+            self.source.substitute(Arc::new(text), edit);
             self.lines = lines;
         }
-        true
+        Ok(edit)
     }
 
     /// Finds the nodes of the text and what is wrong with it.
@@ -170,6 +184,13 @@ impl Document {
     pub(crate) fn workspace_edit(&self, edits: &[Edit]) -> Value {
         let edits: Vec<_> = edits.iter().map(|edit| self.text_edit(edit)).collect();
         json!({ "changes": { &self.uri: edits } })
+    }
+
+    /// Edits as changes of this version of the document: an editor that has another one refuses them.
+    pub(crate) fn versioned_edit(&self, edits: &[Edit]) -> Value {
+        let edits: Vec<_> = edits.iter().map(|edit| self.text_edit(edit)).collect();
+        let document = json!({ "uri": self.uri, "version": self.version });
+        json!({ "documentChanges": [{ "textDocument": document, "edits": edits }] })
     }
 
     pub(crate) fn text_edit(&self, edit: &Edit) -> Value {
@@ -282,7 +303,7 @@ mod tests {
                     plain.replace_range(span.range(), piece);
                     json!({ "range": range, "text": piece })
                 };
-                assert!(document.change(&[change]));
+                document.change(&[change]).expect("valid");
                 assert_eq!(document.text(), plain);
             }
         }

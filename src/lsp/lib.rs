@@ -1,9 +1,12 @@
-//! A language server for scenes, by the Language Server Protocol 3.17. Knows no interface.
+//! A language server for scenes, by the Language Server Protocol 3.17, linked to the interface that shows
+//! the same scene, if there is one.
 //!
-//! One inbox, one thread that answers, in the order of the messages; another thread reads.
+//! One inbox, one thread that answers, in the order of the messages; another thread reads, and one for each
+//! link.
 
 mod answers;
 mod document;
+mod linked;
 mod positions;
 mod server;
 mod setup;
@@ -17,6 +20,7 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::Instant;
 
+use link::ToEditor;
 use serde_json::Value;
 
 use server::{Next, Server};
@@ -38,6 +42,16 @@ pub enum Error {
     Quit,
 }
 
+/// An arrival in the inbox.
+#[derive(Debug)]
+enum Event {
+    /// A message from the editor; `None` at the end of the stream.
+    Editor(Option<Result<Value, Broken>>),
+    /// A message from the interface that shows the document of this URI, by the connection of this number;
+    /// `None` at its end.
+    Interface(String, u64, Option<ToEditor>),
+}
+
 /// Serves one editor until it ends the session.
 ///
 /// # Errors
@@ -45,39 +59,46 @@ pub enum Error {
 /// Fails if the session does not end as the protocol says.
 pub fn serve(input: impl Read + Send + 'static, output: impl Write) -> Result<(), Error> {
     let (sender, inbox) = mpsc::channel();
+    let to_inbox = sender.clone();
     // It ends with the stream, or with the process.
     thread::spawn(move || {
         let mut input = BufReader::new(input);
         loop {
             let message = wire::read(&mut input).transpose();
             let is_last = !matches!(message, Some(Ok(_)));
-            if sender.send(message).is_err() || is_last {
+            if to_inbox.send(Event::Editor(message)).is_err() || is_last {
                 return;
             }
         }
     });
-    let mut server = Server::new(output);
+    let mut server = Server::new(output, sender);
     loop {
         let waiting = inbox.try_recv();
         if waiting.is_err() {
             server.settle()?;
         }
-        let message: Option<Result<Value, Broken>> = match (waiting, server.next_due()) {
-            (Ok(message), _) => message,
-            (Err(_), None) => inbox.recv().ok().flatten(),
+        let event = match (waiting, server.next_due()) {
+            (Ok(event), _) => event,
+            (Err(_), None) => inbox.recv().map_err(|_| Error::Quit)?,
             (Err(_), Some(due)) => {
                 let patience = due.saturating_duration_since(Instant::now());
                 match inbox.recv_timeout(patience) {
-                    Ok(message) => message,
+                    Ok(event) => event,
                     Err(RecvTimeoutError::Timeout) => {
                         server.do_due(Instant::now())?;
                         continue;
                     }
-                    Err(RecvTimeoutError::Disconnected) => None,
+                    Err(RecvTimeoutError::Disconnected) => return Err(Error::Quit),
                 }
             }
         };
-        let message = message.ok_or(Error::Quit)?;
+        let message = match event {
+            Event::Editor(message) => message.ok_or(Error::Quit)?,
+            Event::Interface(uri, connection, message) => {
+                server.hear(&uri, connection, message)?;
+                continue;
+            }
+        };
         let message = message.map_err(|broken| Error::Broken(broken.to_string()))?;
         match server.take(&message)? {
             Next::Message => {}

@@ -4,16 +4,19 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 use std::mem;
 use std::path::{Path, PathBuf};
+use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
 use language::Language;
+use link::{ToEditor, ToInterface};
 use serde_json::{Value, json};
 use text::{Findings, Span};
 
 use crate::answers::{colours, completion, diagnostics, hints, hover, names, outline, tokens};
 use crate::document::{Document, LONGEST};
+use crate::linked::{self, Links};
 use crate::positions::Encoding;
-use crate::{uri, wire};
+use crate::{Event, uri, wire};
 
 /// How long a text must be unchanged before new errors are shown: most are unfinished words.
 pub(crate) const PATIENCE: Duration = Duration::from_millis(200);
@@ -51,6 +54,14 @@ pub(crate) struct Server<W> {
     due: BTreeMap<String, Instant>,
     /// The documents that have changed since they were read.
     changed: BTreeSet<String>,
+    links: Links,
+    /// Whether the editor applies edits of versions of documents.
+    has_versioned_edits: bool,
+    /// The number of requests to the editor so far.
+    requests: u64,
+    /// The edits that the editor was asked for, by the numbers of the requests: the document and the
+    /// version of its text.
+    asked: BTreeMap<u64, (String, u64)>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -61,7 +72,8 @@ enum State {
 }
 
 impl<W: Write> Server<W> {
-    pub(crate) fn new(output: W) -> Self {
+    /// A server before the first message; links put what they hear into `inbox`.
+    pub(crate) fn new(output: W, inbox: mpsc::Sender<Event>) -> Self {
         Self {
             output,
             state: State::Begun,
@@ -69,16 +81,26 @@ impl<W: Write> Server<W> {
             documents: BTreeMap::new(),
             due: BTreeMap::new(),
             changed: BTreeSet::new(),
+            links: Links::new(inbox),
+            has_versioned_edits: false,
+            requests: 0,
+            asked: BTreeMap::new(),
         }
     }
 
     /// When the next document is due.
     pub(crate) fn next_due(&self) -> Option<Instant> {
-        self.due.values().min().copied()
+        let due = self.due.values().min().copied();
+        due.into_iter().chain(self.links.next_due()).min()
     }
 
-    /// Publishes the documents that are due.
+    /// Publishes the documents that are due, and looks for the interfaces that are.
     pub(crate) fn do_due(&mut self, now: Instant) -> io::Result<()> {
+        for uri in self.links.due(now) {
+            if let Some(document) = self.documents.get(&uri) {
+                self.links.connect(document);
+            }
+        }
         let is_due = |(uri, at): (&String, &Instant)| (*at <= now).then(|| uri.clone());
         let due: Vec<_> = self.due.iter().filter_map(is_due).collect();
         due.iter().try_for_each(|uri| self.publish(uri))
@@ -94,6 +116,7 @@ impl<W: Write> Server<W> {
         match (method, message.get("id")) {
             (Some(method), Some(id)) => {
                 self.settle()?;
+                self.note_cursor(method, parameters);
                 let answer = self.answer(method, parameters);
                 let answer = match answer {
                     Ok(result) => json!({ "jsonrpc": "2.0", "id": id, "result": result }),
@@ -109,10 +132,77 @@ impl<W: Write> Server<W> {
             (Some(method), None) if self.state == State::Running => {
                 self.notification(method, parameters)?;
             }
-            // Notifications out of turn, responses, and anything else.
+            (None, Some(id)) => self.answered(id, message),
+            // Notifications before `initialize`, and anything else.
             _ => {}
         }
         Ok(Next::Message)
+    }
+
+    /// Takes the editor's answer to a request.
+    fn answered(&mut self, id: &Value, message: &Value) {
+        let asked = id.as_u64().and_then(|id| self.asked.remove(&id));
+        if let Some((uri, base)) = asked {
+            let is_made = message["result"]["applied"] == true;
+            self.links.tell(&uri, &ToInterface::Answer(base, is_made));
+        }
+    }
+
+    /// Handles a message from the interface that shows a document; `None` if it is gone.
+    pub(crate) fn hear(
+        &mut self,
+        uri: &str,
+        connection: u64,
+        message: Option<ToEditor>,
+    ) -> io::Result<()> {
+        let document = self.documents.get(uri);
+        let (true, Some(document)) = (self.links.is_present(uri, connection), document) else {
+            return Ok(());
+        };
+        let is_span = |span: Span| document.text().get(span.range()).is_some();
+        match message {
+            None => self.links.left(uri),
+            Some(ToEditor::Whole) => self.links.tell_whole(document),
+            Some(ToEditor::Busy(editor)) => {
+                self.links.is_busy(uri);
+                let name = document.path().file_name().unwrap_or_default();
+                let name = name.to_string_lossy().into_owned();
+                let words = format!("the interface follows {editor}, which has {name} open too");
+                return self.show(3, &words);
+            }
+            Some(ToEditor::Show { span, takes_focus }) if is_span(span) => {
+                let selection = document.range(span);
+                let place = json!({ "uri": uri, "takeFocus": takes_focus, "selection": selection });
+                self.ask("window/showDocument", &place)?;
+            }
+            Some(ToEditor::Edit(base, edits)) => {
+                let is_valid = edits.iter().all(|edit| is_span(edit.span));
+                if !is_valid || self.links.version(uri) != Some(base) {
+                    self.links.tell(uri, &ToInterface::Answer(base, false));
+                    return Ok(());
+                }
+                let edit = if self.has_versioned_edits {
+                    document.versioned_edit(&edits)
+                } else {
+                    document.workspace_edit(&edits)
+                };
+                let parameters = json!({ "label": "Halflight", "edit": edit });
+                let request = self.ask("workspace/applyEdit", &parameters)?;
+                self.asked.insert(request, (uri.to_owned(), base));
+            }
+            // A place in another text.
+            Some(ToEditor::Show { .. }) => {}
+        }
+        Ok(())
+    }
+
+    /// Asks the editor for something; returns the number of the request.
+    fn ask(&mut self, method: &str, parameters: &Value) -> io::Result<u64> {
+        self.requests += 1;
+        let id = self.requests;
+        let message = json!({ "jsonrpc": "2.0", "id": id, "method": method, "params": parameters });
+        wire::write(&mut self.output, &message)?;
+        Ok(id)
     }
 
     /// Handles a notification. An unknown or malformed one has no effect.
@@ -134,13 +224,17 @@ impl<W: Write> Server<W> {
                 let text = text.to_owned();
                 let mut opened = Document::new(uri.to_owned(), file, text, self.encoding);
                 opened.version = document["version"].clone();
+                self.links.open(&opened);
                 self.documents.insert(uri.to_owned(), opened);
                 self.publish(uri)
             }
             "textDocument/didChange" => self.change(uri, document, parameters),
             "textDocument/didSave" => {
                 // Files that the text names may have changed.
-                self.documents.get_mut(uri).map(Document::lower);
+                if let Some(document) = self.documents.get_mut(uri) {
+                    document.lower();
+                    self.links.saved(document);
+                }
                 self.publish(uri)
             }
             "textDocument/didClose" => self.close(uri),
@@ -153,11 +247,14 @@ impl<W: Write> Server<W> {
             return Ok(());
         };
         let changes = parameters["contentChanges"].as_array();
-        if !changes.is_some_and(|changes| document.change(changes)) {
+        let Some(Ok(edit)) = changes.map(|changes| document.change(changes)) else {
             self.close(uri)?;
             return self.complain(&format!("received an invalid change of {uri}; reopen it"));
-        }
+        };
         document.version = named["version"].clone();
+        if let Some(edit) = edit {
+            self.links.change(document, edit);
+        }
         self.changed.insert(uri.to_owned());
         Ok(())
     }
@@ -182,6 +279,7 @@ impl<W: Write> Server<W> {
     /// Forgets a document.
     fn close(&mut self, uri: &str) -> io::Result<()> {
         self.due.remove(uri);
+        self.links.close(uri);
         match self.documents.remove(uri) {
             Some(_) => {
                 let none = json!({ "uri": uri, "diagnostics": [] });
@@ -203,10 +301,15 @@ impl<W: Write> Server<W> {
     }
 
     fn complain(&mut self, message: &str) -> io::Result<()> {
+        self.show(1, message)
+    }
+
+    /// Shows a message of this type: 1 is an error, 3 information.
+    fn show(&mut self, kind: u8, message: &str) -> io::Result<()> {
         let message = format!("halflight: {message}");
         self.say(
             "window/showMessage",
-            &json!({ "type": 1, "message": message }),
+            &json!({ "type": kind, "message": message }),
         )
     }
 
@@ -228,15 +331,32 @@ impl<W: Write> Server<W> {
         wire::write(&mut self.output, &message)
     }
 
+    /// Tells the interface where the cursor is: highlights are asked for where it rests.
+    fn note_cursor(&mut self, method: &str, parameters: &Value) {
+        let uri = parameters["textDocument"]["uri"].as_str().unwrap_or("");
+        if method == "textDocument/documentHighlight"
+            && let Some(document) = self.documents.get(uri)
+            && let Some(at) = document.offset(&parameters["position"])
+        {
+            self.links.tell(uri, &ToInterface::Cursor(at));
+        }
+    }
+
     fn answer(&mut self, method: &str, parameters: &Value) -> Result<Value, Refusal> {
         match (method, self.state) {
             ("initialize", State::Begun) => {
                 let known = &parameters["capabilities"]["general"]["positionEncodings"];
                 self.encoding = Encoding::of_client(known);
+                let changes = &parameters["capabilities"]["workspace"]["workspaceEdit"];
+                self.has_versioned_edits = changes["documentChanges"] == true;
+                let (editor, can, follow) = linked::of_client(parameters);
+                (self.links.editor, self.links.can, self.links.follow) = (editor, can, follow);
                 self.state = State::Running;
                 Ok(capabilities(self.encoding))
             }
             ("shutdown", State::Running) => {
+                // Editors that quit do not close each document.
+                self.links.close_all();
                 self.state = State::ShutDown;
                 Ok(Value::Null)
             }

@@ -78,6 +78,17 @@ local function halflight(event)
     name = "halflight",
     cmd = { "halflight", "lsp" },
     root_dir = vim.fn.getcwd(),
+    flags = { debounce_text_changes = 20 },
+    on_attach = function(_, buffer)
+      -- The interface outlines what the cursor is in.
+      vim.api.nvim_create_autocmd({ "CursorMoved", "CursorMovedI" }, {
+        buffer = buffer,
+        callback = function()
+          vim.lsp.buf.clear_references()
+          vim.lsp.buf.document_highlight()
+        end,
+      })
+    end,
   }
   if vim.lsp.start then
     vim.lsp.start(config, { bufnr = event.buf })

@@ -21,6 +21,7 @@ use compare::Comparison;
 use document::Snapshot;
 use file::{ReadError, Version};
 use language::Language;
+use link::{Abilities, Follow, ToEditor};
 use render::{Explanation, Frame, Job};
 use scene::Viewpoint;
 
@@ -137,6 +138,8 @@ pub enum Msg {
     TrackChanged,
     /// The result of [`Effect::WriteTrack`].
     TrackWritten(SaveOutcome),
+    /// Something happened to the buffer that an editor has of the scene.
+    Buffer(BufferNews),
     /// The external editor has ended.
     EditorClosed(Result<(), String>),
     /// The result of [`Effect::ListRecent`].
@@ -164,6 +167,43 @@ pub enum Msg {
     Failed(String),
 }
 
+/// What happens to the buffer that an editor has of the scene. Changes of its text are reported as those
+/// of the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum BufferNews {
+    /// It is open from now on, or followed at another time.
+    Opened {
+        /// The short name of the editor.
+        editor: String,
+        /// What the editor can be asked for.
+        can: Abilities,
+        /// Whether its text is the outside text, rather than that of the file.
+        is_followed: bool,
+    },
+    /// It was written to the file.
+    Saved,
+    /// It was closed: the file is the outside text again.
+    Closed,
+    /// The editor is gone without having closed it.
+    Left,
+    /// The editor's cursor is elsewhere.
+    Cursor {
+        /// The offset in the text, in bytes.
+        at: usize,
+        /// The version of that text.
+        version: u64,
+    },
+    /// The editor has answered a request for edits.
+    Answered {
+        /// The version that they were edits of.
+        base: u64,
+        /// Whether it says that it made them.
+        is_made: bool,
+        /// The version of the buffer when the answer came.
+        version: u64,
+    },
+}
+
 /// Purpose of a timer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Timer {
@@ -181,6 +221,8 @@ pub enum Timer {
     Frame,
     /// The time to read a message while another waits.
     Message,
+    /// Collects further edits before sending them to an editor's buffer, or limits the wait for its answer.
+    Push,
 }
 
 /// Result of a save.
@@ -320,6 +362,12 @@ pub enum Effect {
         /// Line number, from 1.
         line: usize,
     },
+    /// Sends a message to the editor that has the scene open.
+    Tell(ToEditor),
+    /// Forgets the buffer of an editor that is gone.
+    ForgetBuffer,
+    /// Follows editors' buffers at another time.
+    FollowBuffers(Follow),
     /// Offers text to the terminal's clipboard (OSC 52), which may ignore it.
     CopyText(String),
     /// Takes the mouse or leaves it to the terminal.

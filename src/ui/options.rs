@@ -8,6 +8,7 @@ use super::pixels::Pixels;
 use super::terminal::{Choice, ColourDepth, Mouse};
 use super::theme::Theme;
 use assets::Up;
+use link::Follow;
 use scene::Rendering;
 use watch::Method;
 
@@ -33,6 +34,8 @@ pub struct Options {
     pub mouse: Option<Mouse>,
     /// The command line of the editor, before that of the environment.
     pub editor: Option<String>,
+    /// When the buffers of editors are followed.
+    pub follow: Option<Follow>,
     /// What takes precedence over the scene's render settings.
     pub rendering: Rendering,
     /// Number of rendering threads.
@@ -70,6 +73,7 @@ impl Options {
             pixels: self.pixels.or(configured.pixels),
             mouse: self.mouse.or(configured.mouse),
             editor: self.editor.or(configured.editor),
+            follow: self.follow.or(configured.follow),
             rendering: self.rendering.or(configured.rendering),
             threads: self.threads.or(configured.threads),
             assets: [self.assets, configured.assets].concat(),

@@ -29,10 +29,30 @@ impl<R: Send + 'static> Service<R> {
         follow: impl FnOnce(&Receiver<R>) + Send + 'static,
     ) -> io::Result<Self> {
         let (requests, inbox) = mpsc::channel();
+        Self::run(name, work, requests, move || follow(&inbox))
+    }
+
+    /// As [`Service::start`], for a thread that also lets others make requests: it ends when `follow` does.
+    pub(crate) fn start_shared(
+        name: &str,
+        work: &'static str,
+        follow: impl FnOnce(&Receiver<R>, &Sender<R>) + Send + 'static,
+    ) -> io::Result<Self> {
+        let (requests, inbox) = mpsc::channel();
+        let to_inbox = requests.clone();
+        Self::run(name, work, requests, move || follow(&inbox, &to_inbox))
+    }
+
+    fn run(
+        name: &str,
+        work: &'static str,
+        requests: Sender<R>,
+        follow: impl FnOnce() + Send + 'static,
+    ) -> io::Result<Self> {
         let (at_work, end) = mpsc::channel();
         spawn(name, move || {
             let _at_work = at_work;
-            follow(&inbox);
+            follow();
         })?;
         Ok(Self {
             requests,

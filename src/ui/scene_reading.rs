@@ -9,7 +9,7 @@ use file::FileId;
 use language::{Language, Lowered, UnknownLanguage};
 use memory::OutOfMemory;
 use scene::Meshes;
-use text::Findings;
+use text::{Diagnostic, Findings};
 
 /// State that a text read from disk is compared with.
 #[derive(Clone, Debug)]
@@ -33,6 +33,17 @@ pub struct Reading {
     pub news: Option<Box<News>>,
     /// The folder that the file was read from, if known.
     pub place: Option<SceneFolder>,
+    /// What the text is of, if it is of an editor's buffer instead of the file.
+    pub buffer: Option<ReadBuffer>,
+}
+
+/// An editor's buffer that was read instead of the file.
+#[derive(Clone, Debug)]
+pub struct ReadBuffer {
+    /// The version of its text.
+    pub version: u64,
+    /// What the file holds, if the editor has left without closing the buffer.
+    pub in_file: Option<Arc<String>>,
 }
 
 /// A scene that was opened while another one was shown.
@@ -84,7 +95,7 @@ pub enum News {
     Numbers(Numbers),
     /// There are no unsaved edits.
     Text(Document, Meaning),
-    /// The text was merged with unsaved edits.
+    /// The text was merged with unsaved edits. It may have errors if it is that of an editor's buffer.
     Merged(Merged, Meaning),
     /// Unsaved edits changed the same places.
     Conflict(Merge),
@@ -102,34 +113,45 @@ pub struct Meaning {
 }
 
 impl Reading {
-    /// Parses and lowers a text. Fails if that would take more memory than is available.
+    /// Parses and lowers the text of the file. Fails if that would take more memory than is available.
     pub fn new(text: String, baseline: Baseline) -> Result<Self, OutOfMemory> {
+        Self::of(text, None, baseline)
+    }
+
+    /// Parses and lowers the text of an editor's buffer, or that of the file if there is none. Fails if that
+    /// would take more memory than is available.
+    pub(crate) fn of(
+        text: String,
+        buffer: Option<ReadBuffer>,
+        baseline: Baseline,
+    ) -> Result<Self, OutOfMemory> {
         let news = if *baseline.scene.saved == text {
             None
         } else {
-            Some(Box::new(News::of(text, &baseline)?))
+            Some(Box::new(News::of(text, buffer.is_some(), &baseline)?))
         };
         Ok(Self {
             baseline,
             news,
             place: None,
+            buffer,
         })
     }
 }
 
 impl News {
-    fn of(text: String, baseline: &Baseline) -> Result<Self, OutOfMemory> {
+    fn of(text: String, is_buffer: bool, baseline: &Baseline) -> Result<Self, OutOfMemory> {
         if !baseline.is_sound {
-            return Self::of_whole(text, baseline);
+            return Self::of_whole(text, is_buffer, baseline);
         }
         match baseline.scene.numbers(text) {
             Ok(numbers) => Ok(Self::Numbers(numbers)),
-            Err(text) => Self::of_whole(text, baseline),
+            Err(text) => Self::of_whole(text, is_buffer, baseline),
         }
     }
 
     /// Parses and lowers a text as a whole.
-    fn of_whole(text: String, baseline: &Baseline) -> Result<Self, OutOfMemory> {
+    fn of_whole(text: String, is_buffer: bool, baseline: &Baseline) -> Result<Self, OutOfMemory> {
         let before = &baseline.scene;
         // A document keeps the saved text beside the one under edit.
         language::fits(before.language, &text, text.len())?;
@@ -143,7 +165,8 @@ impl News {
             let meaning = meaning(lowered, document.text());
             return Ok(Self::Text(document, meaning));
         }
-        if lowered.scene.is_none() {
+        // In a buffer, a word that is being typed must not keep edits of the interface from it.
+        if lowered.scene.is_none() && !is_buffer {
             return Ok(Self::Broken(document.shared_text(), lowered.diagnostics));
         }
         let (merged, lowered) = match before.merge(document, &baseline.meshes)? {
@@ -154,12 +177,23 @@ impl News {
         Ok(Self::Merged(merged, meaning))
     }
 
+    /// The errors of the text that was read, if it cannot be lowered.
+    pub fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
+        let findings = match self {
+            Self::Text(_, meaning) | Self::Merged(_, meaning) => Some(&meaning.lowered.diagnostics),
+            Self::Broken(_, findings) => Some(findings),
+            Self::Numbers(_) | Self::Conflict(_) => None,
+        };
+        let errors = findings.into_iter().flat_map(|findings| findings.iter());
+        errors.filter(|found| found.is_error())
+    }
+
     /// Whether the text that was read has errors.
     pub fn is_broken(&self) -> bool {
         match self {
-            Self::Text(_, meaning) => meaning.lowered.scene.is_none(),
+            Self::Text(_, meaning) | Self::Merged(_, meaning) => meaning.lowered.scene.is_none(),
             Self::Broken(..) => true,
-            Self::Numbers(_) | Self::Merged(..) | Self::Conflict(_) => false,
+            Self::Numbers(_) | Self::Conflict(_) => false,
         }
     }
 }

@@ -13,7 +13,7 @@
 //! | [`modes`] | the modes joined: their states and keys, who handles a press, how one is entered |
 //! | [`keys`], [`list`], [`back`] | keys that are the same in many modes; cursors of lists; Esc where no mode binds it |
 //! | [`edit`], [`select`], [`sequence`], [`trace`] | EDIT: values of fields; SELECT: the list and the selected things; SEQUENCE: a track, played and keyed; TRACE: the full-size trace and its region |
-//! | [`exports`], [`history`], [`files`] | pictures written; undo, redo and their page; the scene's files |
+//! | [`exports`], [`history`], [`files`], [`buffer`] | pictures written; undo, redo and their page; the scene's files, and an editor's buffer in place of its own |
 //! | [`compare`], [`camera`], [`transform`], [`inspect`] | COMPARE; VIEW and FLY; MOVE; INSPECT and the rays behind a pixel |
 //! | [`suggesting`], [`text`] | what is wrong with a picture, and the setting that would help; every change of the text |
 //! | [`display`], [`panels`] | what pictures show and ask for; how much of the screen they take |
@@ -23,6 +23,7 @@
 //! | [`pictures`], [`values`] | pictures as state; numbers, words and colours as they are typed |
 
 mod back;
+pub(crate) mod buffer;
 mod camera;
 pub(crate) mod command;
 pub(crate) mod compare;
@@ -74,6 +75,7 @@ pub(super) use sequence::DopeSheet;
 pub use sequence::{OpenTrack, Sequence};
 pub use shared::Shared;
 pub use shared::after_leaving::AfterLeaving;
+pub use shared::buffer::Buffer;
 pub use shared::cursor::{Cursor, Names, Stride, Typing};
 pub use shared::disk::{Disk, FirstReading, OnDisk};
 pub use shared::field_row::{FieldRow, Provenance};

@@ -5,7 +5,9 @@ use std::time::Duration;
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use super::shared::Border;
-use super::{App, PickerRow, Shared, camera, display, edit, inspect, list, panels, transform};
+use super::{
+    App, PickerRow, Shared, camera, display, edit, files, inspect, list, panels, transform,
+};
 use crate::keymap::{Context, Mode};
 use crate::layout::{
     contents, field_at, first_shown, list_row_at, picker_lines, share_at, swatch_cells,
@@ -42,7 +44,11 @@ impl App {
             MouseEventKind::Down(MouseButton::Left) if shared.overlays.menu.is_some() => {
                 press_menu(shared, at);
             }
-            MouseEventKind::Down(MouseButton::Left) => return self.press_left(at),
+            MouseEventKind::Down(MouseButton::Left) => {
+                let mut effects = self.press_left(at);
+                effects.extend(show_pressed(&self.shared, at));
+                return effects;
+            }
             MouseEventKind::Down(_) => press_to_pan(shared, at),
             MouseEventKind::Drag(MouseButton::Left) if !controls => return drag_left(self, at),
             MouseEventKind::Drag(_) => drag_to_pan(shared, at),
@@ -71,6 +77,16 @@ impl App {
         let taken = self.press(at);
         taken.unwrap_or_else(|| press(&mut self.shared, at))
     }
+}
+
+/// Shows what was pressed in the picture to the editor that has the scene open, which keeps the focus where
+/// it is.
+fn show_pressed(shared: &Shared, at: (u16, u16)) -> Option<Effect> {
+    let selects = !shared.mode.moves_camera() && shared.motion.is_none();
+    let is_pressed = selects && shared.areas().picture.contains(at.into());
+    let span = shared.source().span(inspect::node_in_focus(shared));
+    let show = || files::show_in_editor(shared, span, false);
+    is_pressed.then(show).flatten()
 }
 
 /// Whether dragging pans the picture on screen.

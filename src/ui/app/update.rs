@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::shared::journal::KEPT_AFTER;
 use super::{
-    App, Grid, command, compare, display, exports, files, history, inspect, pasting, sequence,
-    suggesting, text, trace,
+    App, Grid, buffer, command, compare, display, exports, files, history, inspect, pasting,
+    sequence, suggesting, text, trace,
 };
 use crate::history_scene::NoPicture;
 use crate::msg::{Effect, Msg, Target, Timer};
@@ -35,6 +35,7 @@ impl App {
         effects.extend(self.follow());
         effects.extend(display::follow(&mut self.shared));
         effects.extend(files::follow_edits(&mut self.shared));
+        effects.extend(buffer::follow_edits(&mut self.shared));
         let time = self.shared.overlays.time_to_read();
         effects.extend(time.map(|time| Effect::Later(time, Timer::Message)));
         effects
@@ -76,6 +77,7 @@ impl App {
             }
             Msg::Recalled(recalled) => trace::recalled(shared, recalled),
             Msg::Explained(question, answer) => inspect::explained(shared, question, answer),
+            Msg::Buffer(news) => return buffer::heard(shared, news),
             Msg::FileChanged => return files::read_again(shared),
             Msg::Polled(what, reason) => files::polled(shared, what, reason),
             // The scene may have been given another name since the request.
@@ -96,6 +98,7 @@ impl App {
                 return vec![Effect::Later(KEPT_AFTER, timer)];
             }
             Msg::Elapsed(Timer::Keep) => return files::keep_edits(shared).into_iter().collect(),
+            Msg::Elapsed(Timer::Push) => return buffer::push(shared),
             Msg::Elapsed(Timer::Writing) => return files::tick(shared),
             Msg::Saved(id, outcome) => return files::was_saved(shared, id, outcome),
             Msg::BackupsFound(copies) => files::backups_found(shared, &copies),

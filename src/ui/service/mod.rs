@@ -3,6 +3,7 @@
 
 mod answering;
 mod assets;
+mod buffers;
 mod comparing;
 mod deriving;
 pub mod destination;

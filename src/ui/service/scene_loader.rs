@@ -4,21 +4,25 @@
 use std::cell::LazyCell;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::thread;
+use std::time::Instant;
 
+use super::buffers::{Buffers, Outside};
 use super::watching::Watching;
 use crate::event::Work;
 use crate::msg::{Msg, Polled};
+use crate::options::Options;
 use crate::queue::{Ended, Service};
 use crate::recovery;
-use crate::scene_reading::{Baseline, Opened, Reading, SceneFolder};
+use crate::scene_reading::{Baseline, Opened, ReadBuffer, Reading, SceneFolder};
 use assets::{Assets, MeshScene, Up, is_mesh};
 use document::Document;
 use file::ReadError;
 use language::Language;
+use link::{Follow, Heard, ToEditor};
 use scene::Meshes;
-use watch::Method;
 
 /// Length in bytes from which a text is lowered on several threads.
 const LARGE: usize = 1 << 20;
@@ -31,23 +35,39 @@ enum Request {
     Read(PathBuf, Baseline, Work),
     /// Read the scene of this file, in place of another.
     Open(PathBuf, Language, Work),
+    /// Take what an editor said.
+    Hear(Heard),
+    /// Send this to the editor that has the scene open.
+    Tell(ToEditor),
+    /// Forget the buffer of an editor that is gone.
+    Forget,
+    /// Follow buffers at this time.
+    Follow(Follow),
+    /// End the thread.
+    End,
 }
 
-/// Handle of the thread that watches, reads and lowers the scene file. Nothing else waits for it,
-/// neither a save nor the end of the program.
+/// Handle of the thread that watches, reads and lowers the scene file, and hears editors. Nothing else waits
+/// for it, neither a save nor the end of the program; only its socket is given a moment to be removed.
 pub(crate) struct SceneLoader(Service<Request>);
 
 impl SceneLoader {
     /// Starts the thread. `send` is called on it and on the watcher's thread.
     pub(crate) fn start(
-        method: Method,
-        up: Option<Up>,
+        options: &Options,
         send: impl Fn(Msg) + Clone + Send + 'static,
     ) -> io::Result<Self> {
-        let service = Service::start("reading", "reads scenes", move |inbox| {
+        let (method, up) = (options.watching(), options.up);
+        let buffers = Buffers::new(options.follow.unwrap_or_default());
+        let service = Service::start_shared("reading", "reads scenes", move |inbox, requests| {
             let mut watching = Watching::new(Polled::Scene, method, send.clone());
-            let watch = |path| {
+            let watch = |path: PathBuf, buffers: &mut Buffers| {
+                let requests = requests.clone();
+                // The thread ends only with the program.
+                let hear = move |heard| drop(requests.send(Request::Hear(heard)));
+                let failed = buffers.listen(&path, hear);
                 watching.watch(vec![path]);
+                failed.map(Msg::Failed)
             };
             let read = |path: &Path| {
                 if is_mesh(path) {
@@ -55,7 +75,7 @@ impl SceneLoader {
                 }
                 file::read_text(path).map(Content::Text)
             };
-            follow(inbox, watch, read, &send);
+            follow(inbox, buffers, watch, read, &send);
         });
         service.map(Self)
     }
@@ -75,13 +95,36 @@ impl SceneLoader {
     pub(crate) fn open(&self, path: PathBuf, language: Language, work: Work) -> Result<(), Ended> {
         self.0.request(Request::Open(path, language, work))
     }
+
+    /// Sends a message to the editor that has the scene open, if there is one.
+    pub(crate) fn tell(&self, message: ToEditor) -> Result<(), Ended> {
+        self.0.request(Request::Tell(message))
+    }
+
+    /// Ends the thread, and waits for that until `deadline`.
+    pub(crate) fn finish(self, deadline: Instant) {
+        // If it has ended already, it left nothing behind.
+        let _ = self.0.request(Request::End);
+        self.0.finish(deadline);
+    }
+
+    /// Forgets the buffer of an editor that is gone: from now on the file is read.
+    pub(crate) fn forget_buffer(&self) -> Result<(), Ended> {
+        self.0.request(Request::Forget)
+    }
+
+    /// Follows editors' buffers at another time.
+    pub(crate) fn follow_buffers(&self, follow: Follow) -> Result<(), Ended> {
+        self.0.request(Request::Follow(follow))
+    }
 }
 
 /// Carries out requests until the sender is gone. A file that changes while being read is not
 /// lowered but read again.
 fn follow(
     inbox: &Receiver<Request>,
-    mut watch: impl FnMut(PathBuf),
+    mut buffers: Buffers,
+    mut watch: impl FnMut(PathBuf, &mut Buffers) -> Option<Msg>,
     read: impl Fn(&Path) -> Result<Content, ReadError>,
     send: impl Fn(Msg),
 ) {
@@ -94,28 +137,33 @@ fn follow(
     while let Ok(first) = inbox.recv() {
         let mut requests = vec![first];
         requests.extend(inbox.try_iter());
-        while let Some(request) = last(requests, &mut watch) {
-            let path = request.path().to_owned();
+        if ends(&requests) {
+            return;
+        }
+        while let Some(wanted) = last(requests, &mut buffers, &mut watch, &send) {
+            let path = wanted.path;
             file::regain_folder();
-            let read = read(&path);
+            let outside = buffers.outside().filter(|_| wanted.language.is_none());
+            let (read, outside) = match outside {
+                Some(outside) => beside_file(outside, &path),
+                None => (read(&path), None),
+            };
             requests = inbox.try_iter().collect();
-            let is_watch = |request: &Request| matches!(request, Request::Watch(_));
-            if !requests.iter().all(is_watch) {
+            if ends(&requests) {
+                return;
+            }
+            if requests.iter().any(Request::wants_text) {
                 continue;
             }
-            let (baseline, language, work) = match request {
-                Request::Watch(_) => continue,
-                Request::Read(_, baseline, work) => (baseline, None, work),
-                Request::Open(_, language, work) => (nothing(language), Some(language), work),
-            };
+            let (baseline, language, work) = (wanted.baseline, wanted.language, wanted.work);
             let understand = |text: String| {
                 if text.len() < LARGE {
-                    return Reading::new(text, baseline);
+                    return Reading::of(text, outside, baseline);
                 }
                 memory::malloc::keep_large();
                 match &*pool {
-                    Ok(pool) => pool.install(|| Reading::new(text, baseline)),
-                    Err(_) => Reading::new(text, baseline),
+                    Ok(pool) => pool.install(|| Reading::of(text, outside, baseline)),
+                    Err(_) => Reading::of(text, outside, baseline),
                 }
             };
             let text = match read {
@@ -168,21 +216,74 @@ fn around_mesh(path: &Path, up: Option<Up>) -> Result<Content, ReadError> {
     Ok(Content::AroundMesh(made))
 }
 
+/// The text of an editor's buffer. If the editor is gone, what the file holds belongs to it: nothing if it
+/// cannot be read.
+fn beside_file(outside: Outside, path: &Path) -> (Result<Content, ReadError>, Option<ReadBuffer>) {
+    let in_file = outside.is_left.then(|| {
+        let text = file::read_text(path).unwrap_or_default();
+        Arc::new(text)
+    });
+    let buffer = ReadBuffer {
+        version: outside.version,
+        in_file,
+    };
+    (Ok(Content::Text(outside.text)), Some(buffer))
+}
+
+fn ends(requests: &[Request]) -> bool {
+    requests
+        .iter()
+        .any(|request| matches!(request, Request::End))
+}
+
+/// A text to read, and what for.
+struct Wanted {
+    path: PathBuf,
+    baseline: Baseline,
+    /// The language of another scene; `None` for the present one.
+    language: Option<Language>,
+    work: Work,
+}
+
 impl Request {
-    fn path(&self) -> &Path {
-        let (Self::Watch(path) | Self::Read(path, ..) | Self::Open(path, ..)) = self;
-        path
+    fn wants_text(&self) -> bool {
+        matches!(self, Self::Read(..) | Self::Open(..))
     }
 }
 
-/// Carries out the requests to watch and returns the last one to read a file.
-fn last(requests: Vec<Request>, mut watch: impl FnMut(PathBuf)) -> Option<Request> {
+/// Carries out requests, and returns the last one to read a file.
+fn last(
+    requests: Vec<Request>,
+    buffers: &mut Buffers,
+    mut watch: impl FnMut(PathBuf, &mut Buffers) -> Option<Msg>,
+    send: impl Fn(Msg),
+) -> Option<Wanted> {
     let mut last = None;
     for request in requests {
         match request {
             // Before the file is read, so that no later change is missed.
-            Request::Watch(path) => watch(path),
-            request => last = Some(request),
+            Request::Watch(path) => watch(path, buffers).into_iter().for_each(&send),
+            Request::Hear(heard) => buffers.heard(heard).into_iter().for_each(&send),
+            Request::Tell(message) => buffers.tell(&message),
+            Request::Forget => buffers.forget(),
+            Request::End => {}
+            Request::Follow(follow) => buffers.follow(follow).into_iter().for_each(&send),
+            Request::Read(path, baseline, work) => {
+                last = Some(Wanted {
+                    path,
+                    baseline,
+                    language: None,
+                    work,
+                });
+            }
+            Request::Open(path, language, work) => {
+                last = Some(Wanted {
+                    path,
+                    baseline: nothing(language),
+                    language: Some(language),
+                    work,
+                });
+            }
         }
     }
     last
@@ -270,7 +371,8 @@ mod tests {
             Msg::Read(path, Ok(_)) => sent.borrow_mut().push(path),
             msg => panic!("{msg:?}"),
         };
-        follow(&inbox, |_| {}, reads, report);
+        let buffers = Buffers::new(Follow::Typing);
+        follow(&inbox, buffers, |_, _| None, reads, report);
         (read.into_inner(), sent.into_inner())
     }
 

@@ -39,6 +39,9 @@ use render::{Checkpoint, Frame, Job, Refusal, Renderer, Threads};
 use scene::Scene;
 use shards::Traces;
 
+/// Time in which the socket that editors connect to is removed; one that is left is replaced by the next run.
+const SOCKET_TIME: Duration = Duration::from_millis(50);
+
 /// Time for which memory freed by pictures is kept for the next ones.
 const TRIM_TIME: Duration = Duration::from_secs(30);
 
@@ -170,6 +173,7 @@ impl Runtime {
         let end = self.keeper.finish(files);
         self.writers.finish(files);
         self.recent.finish(files);
+        self.reader.finish(Instant::now() + SOCKET_TIME);
         (end, keeping.map_or(TraceEnd::Nothing, Keeping::finish))
     }
 
@@ -254,6 +258,9 @@ impl Runtime {
                 self.recent.request(remembering::Request::Panels(sizes))?;
             }
             Effect::Watch(path) => self.reader.watch(path)?,
+            Effect::Tell(message) => self.reader.tell(message)?,
+            Effect::ForgetBuffer => self.reader.forget_buffer()?,
+            Effect::FollowBuffers(follow) => self.reader.follow_buffers(follow)?,
             Effect::WriteTrack { path, text, guard } => {
                 let refused = not_saved(self.writers.write_track(path, text, guard));
                 return Ok(refused.map(Msg::TrackWritten));

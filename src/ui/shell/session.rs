@@ -41,7 +41,7 @@ pub(crate) fn run(
     script: Option<Script>,
 ) -> Result<Ending, Error> {
     let (sender, inbox) = mpsc::channel();
-    let reader = SceneLoader::start(options.watching(), options.up, sending(&sender))?;
+    let reader = SceneLoader::start(options, sending(&sender))?;
     if script.is_some() {
         // Nothing else changes the files of a script.
         effects.retain(|effect| !matches!(effect, Effect::Watch(_)));

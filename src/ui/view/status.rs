@@ -112,6 +112,11 @@ fn text_segments(app: &App, segments: &mut Segments) {
     if text::has_edits(shared) {
         segments.say(Rank::Unsaved, "[+]", theme::BOLD);
     }
+    if let Some(buffer) = &shared.buffer {
+        let mark = if buffer.is_changed { "*" } else { "" };
+        let chip = format!("⇄ {}{mark}", visible(&buffer.editor));
+        segments.say(Rank::Unsaved, chip, theme::ACCENT);
+    }
     let disk = match &shared.disk.state {
         OnDisk::Known => None,
         OnDisk::Changed => Some("[disk changed]"),

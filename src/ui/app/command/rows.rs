@@ -19,6 +19,7 @@ use crate::pixels::Pixels;
 use crate::theme::Theme;
 use image_file::ImageFormat;
 use language::{Language, extensions};
+use link::Follow;
 use render::{Aov, MOST_HALF_STOPS};
 use scene::{Size, Transfer};
 
@@ -66,6 +67,7 @@ pub(crate) const ROWS: &[CommandRow] = &[
     CommandRow::new(&["theme light"], Nothing(|| Run::does(|shared| shared.theme = Theme::Light)), "use colours for light screens").also("color scheme").runs(Always),
     CommandRow::new(&["theme mono"], Nothing(|| Run::does(|shared| shared.theme = Theme::Mono)), "use no colours except in pictures").runs(Always),
     CommandRow::new(&["pixels"], Said(" MODE", pixels), "set what pixels are drawn with, such as half, octant or auto").runs(Always),
+    CommandRow::new(&["follow"], Said(" typing|saving", follow), "follow the scene in an editor while typing, or when it is saved").runs(Always),
     CommandRow::new(&["help"], Nothing(|| Run::does(|shared| shared.overlays.open_page(Page::reading(Context::Help)))), "show this page").key("help").runs(Always),
 ];
 
@@ -119,6 +121,11 @@ fn region(said: &str) -> Result<Run, String> {
 fn zoom(said: &str) -> Result<Run, String> {
     let order = ScaleOrder::parse(said)?;
     Ok(Run::does(move |shared| display::order_scale(shared, order)))
+}
+
+fn follow(said: &str) -> Result<Run, String> {
+    let follow = Follow::named(said).ok_or("follow takes typing or saving")?;
+    Ok(Run::requests(move |_| vec![Effect::FollowBuffers(follow)]))
 }
 
 fn size(said: &str) -> Result<Run, String> {

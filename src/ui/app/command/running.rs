@@ -116,6 +116,7 @@ mod tests {
                     Arguments::Said(" STOPS", _) => " -1.5",
                     Arguments::Said(" KEY [VALUE|default]", _) => " depth",
                     Arguments::Said(" MODE", _) => " half",
+                    Arguments::Said(" typing|saving", _) => " saving",
                     _ => "",
                 };
                 assert!(parse(&format!(" {name}{argument} ")).is_ok(), "{name}");

@@ -1,5 +1,6 @@
 //! The external editor.
 
+use super::outside;
 use super::reading::read_again;
 use crate::app::{OnDisk, Shared, inspect};
 use crate::msg::Effect;
@@ -11,6 +12,9 @@ pub(crate) fn open_editor(shared: &mut Shared) -> Vec<Effect> {
         shared.fail("this scene has no file yet: use :w FILE to create one");
         return Vec::new();
     };
+    if shared.buffer.is_some() {
+        return show_in_running_editor(shared);
+    }
     let (save, editor) = (shared.key_for("save"), shared.key_for("editor"));
     let obstacle = match shared.disk.state {
         OnDisk::New => {
@@ -45,6 +49,19 @@ pub(crate) fn open_editor(shared: &mut Shared) -> Vec<Effect> {
     );
     let line = Position::of(wrong.text, span.start()).line;
     vec![Effect::OpenEditor { path, line }]
+}
+
+/// Brings the cursor of the editor that has the scene open to what is selected or inspected.
+fn show_in_running_editor(shared: &mut Shared) -> Vec<Effect> {
+    let span = shared.source().span(inspect::node_in_focus(shared));
+    if let Some(show) = outside::show_in_editor(shared, span, true) {
+        return vec![show];
+    }
+    let line = Position::of(shared.document.text(), span.start()).line;
+    let editor = shared.buffer.as_ref().map(|buffer| &*buffer.editor);
+    let words = format!("line {line} in {}", editor.unwrap_or_default());
+    shared.say(words);
+    Vec::new()
 }
 
 /// Reports an editor that failed, and reads the file again.

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use super::outside;
 use super::polling::complain_of_polling;
 use super::reading::{announce_new, note_recent, watch};
 use super::recent::list_recent;
@@ -23,7 +24,7 @@ use crate::scene_reading::{News, Reading};
 use crate::terminal::Mouse;
 use crate::theme::Theme;
 use ::text::{Findings, Severity};
-use document::Document;
+use document::{Document, Past};
 use file::ReadError;
 use language::{Language, Lowered, Node};
 use scene::Rendering;
@@ -102,6 +103,7 @@ pub(crate) fn open(opening: Opening) -> (Shared, Vec<Effect>) {
         scene: None,
         assets: Assets::default(),
         disk: Disk::new(opening.path, state, first),
+        buffer: None,
         cursor: Cursor::default(),
         pictures: Pictures::new(opening.rendering),
         inspection: Inspection::default(),
@@ -158,16 +160,19 @@ pub(crate) fn first_read(shared: &mut Shared, read: Result<Reading, ReadError>) 
     if let Some(place) = reading.place {
         shared.disk.place = Some(place);
     }
+    let read = reading.buffer;
     let lowered = match reading.news.map(|news| *news) {
         Some(News::Text(document, meaning)) => {
             // The previous document is empty.
-            drop(shared.document.load(document));
+            drop(shared.document.load(document, Past::Cleared));
             meaning.lowered
         }
         // Without edits there is nothing to merge, and only an empty file changes nothing.
         _ => text::lowered(shared),
     };
-    begin(shared, lowered)
+    let mut effects = outside::took(shared, read);
+    effects.extend(begin(shared, lowered));
+    effects
 }
 
 /// Installs the meaning of the first text, and looks for edits of it that earlier runs kept.

@@ -51,6 +51,9 @@ pub(crate) fn adopt(shared: &mut Shared) -> Vec<Effect> {
         }
         Adopted::Taken => {
             shared.disk.state = OnDisk::Known;
+            if let Some(buffer) = &mut shared.buffer {
+                buffer.version = buffer.offered.take();
+            }
             let difference = Difference::of(&held.text, shared.document.text());
             let lowered = text::lowered(shared);
             show_reload(
@@ -58,7 +61,7 @@ pub(crate) fn adopt(shared: &mut Shared) -> Vec<Effect> {
                 &held,
                 difference.as_ref(),
                 lowered,
-                &reading::ADOPTED,
+                Some(&reading::ADOPTED),
             );
         }
         Adopted::OutOfDate => shared.warn("the file was saved meanwhile: nothing was merged"),

@@ -6,6 +6,7 @@ mod keys;
 mod leaving;
 mod merging;
 mod other_scene;
+mod outside;
 mod polling;
 mod reading;
 mod recent;
@@ -22,8 +23,9 @@ pub(crate) use leaving::{
 };
 pub(crate) use merging::{adopt, decide, decide_all};
 pub(crate) use other_scene::{edit_file, other_scene_read, start_new};
+pub(crate) use outside::show_in_editor;
 pub(crate) use polling::{polled, polls};
-pub(crate) use reading::{backups_found, catch_up, read_again, settled, was_read};
+pub(crate) use reading::{backups_found, catch_up, read_again, read_finally, settled, was_read};
 pub(crate) use recent::show_recent;
 pub(crate) use recover::{
     decline, fails_to_keep, follow_edits, found_kept, has_kept_edits, keep_edits, kept, put_off,

@@ -7,21 +7,25 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use ::text::{Findings, Position, Severity, counted};
-use document::{Difference, Numbers, StepName};
+use document::{Difference, Numbers, Past, StepName};
 use file::ReadError;
 use language::Lowered;
 
+use super::outside::{self, Sending};
 use crate::app::shared::cursor::SavedCursor;
 use crate::app::shared::disk::{Faulty, Requester, Settle};
 use crate::app::shared::messages::About;
 
 use crate::app::{MergeSource, OnDisk, Shared, text};
 use crate::msg::Effect;
-use crate::scene_reading::{Baseline, News, Reading};
+use crate::scene_reading::{Baseline, News, ReadBuffer, Reading};
 use crate::text_width::file_name;
 
 /// Many programs empty a file before writing it: errors must persist for this long.
 const QUIET: Duration = Duration::from_millis(100);
+/// A text in an editor's buffer must rest for this long before new errors are shown: most are unfinished
+/// words.
+const RESTING: Duration = Duration::from_millis(200);
 /// Others move the old file away before the new one exists.
 const GONE: Duration = Duration::from_millis(500);
 
@@ -96,7 +100,7 @@ pub(super) fn reread(shared: &mut Shared) -> Vec<Effect> {
 }
 
 /// Reads the file and accepts what it holds; not while it is being saved.
-pub(super) fn read_finally(shared: &mut Shared) -> Vec<Effect> {
+pub(crate) fn read_finally(shared: &mut Shared) -> Vec<Effect> {
     read_with(shared, Settle::Final)
 }
 
@@ -245,30 +249,41 @@ fn take_reading(shared: &mut Shared, mut reading: Reading, settle: Settle) -> Ve
 
 fn take_text(shared: &mut Shared, reading: Reading, settle: Settle) -> Vec<Effect> {
     let requester = std::mem::take(&mut shared.disk.requester);
+    let Reading { news, buffer, .. } = reading;
+    let is_buffer = buffer.is_some();
     // An undecided merge is obsolete, regardless of what the file holds now.
     if let Some((_, _, MergeSource::File)) = shared.overlays.conflict() {
         shared.overlays.dialog = None;
     }
-    let Some(news) = reading.news else {
+    let Some(news) = news else {
+        let effects = outside::took(shared, buffer);
         if shared.disk.state != OnDisk::Known {
             shared.disk.state = OnDisk::Known;
             shared.say("the file matches the saved text again");
         } else if requester == Requester::User {
             shared.say(format!("{} has not changed", shared.disk.name()));
         }
-        return Vec::new();
+        return effects;
     };
-    if news.is_broken() && settle != Settle::Final {
-        let mut effects = shared.disk.wait(QUIET);
+    let has_new_errors = |news: &News| {
+        let shown = || shared.diagnostics.iter().map(|found| &found.message);
+        !is_buffer
+            || news
+                .errors()
+                .any(|error| shown().all(|known| *known != error.message))
+    };
+    if news.is_broken() && settle != Settle::Final && has_new_errors(&news) {
+        let mut effects = shared.disk.wait(if is_buffer { RESTING } else { QUIET });
         effects.push(Effect::Free(Arc::new(news)));
         return effects;
     }
     let held = shared.cursor.hold(shared.document.shared_text());
     let saved = Arc::clone(shared.document.saved());
     let state = std::mem::replace(&mut shared.disk.state, OnDisk::Known);
+    let past = past(is_buffer);
     let (document, meaning, words) = match *news {
         News::Numbers(numbers) => {
-            let Some(effects) = take_numbers(shared, numbers, &held) else {
+            let Some(mut effects) = take_numbers(shared, numbers, &held, is_buffer) else {
                 shared.disk.state = state;
                 return shared.disk.read(Baseline {
                     is_sound: false,
@@ -276,15 +291,27 @@ fn take_text(shared: &mut Shared, reading: Reading, settle: Settle) -> Vec<Effec
                 });
             };
             text::note_before_input(shared, saved);
+            effects.extend(outside::took(shared, buffer));
             return effects;
         }
-        News::Text(document, meaning) => (shared.document.load(document), meaning, RELOADED),
+        News::Text(document, meaning) => {
+            let words = (!is_buffer).then_some(RELOADED);
+            (shared.document.load(document, past), meaning, words)
+        }
         News::Merged(merged, meaning) => {
             let is_dirty = merged.document.is_dirty();
-            let words = if is_dirty { MERGED } else { SAME_NOW };
-            (text::take_merged(shared, merged), meaning, words)
+            let words = (!is_buffer).then_some(if is_dirty { MERGED } else { SAME_NOW });
+            (text::take_merged(shared, merged, past), meaning, words)
         }
         News::Conflict(merge) => {
+            if is_buffer && let Some(sending) = outside::conflicts_with_sent(shared) {
+                shared.disk.state = state;
+                return match sending {
+                    Sending::Unanswered => Vec::new(),
+                    Sending::Made => read_finally(shared),
+                };
+            }
+            offer(shared, buffer.as_ref());
             shared.disk.state = OnDisk::Changed;
             shared.overlays.ask_conflict(merge, MergeSource::File);
             return Vec::new();
@@ -297,18 +324,44 @@ fn take_text(shared: &mut Shared, reading: Reading, settle: Settle) -> Vec<Effec
     text::note_before_input(shared, saved);
     let former = (document, shared.scene.clone());
     let difference = meaning.difference.as_ref();
-    show_reload(shared, &held, difference, meaning.lowered, &words);
-    vec![Effect::Free(Arc::new(former))]
+    show_reload(shared, &held, difference, meaning.lowered, words.as_ref());
+    let mut effects = outside::took(shared, buffer);
+    effects.push(Effect::Free(Arc::new(former)));
+    effects
+}
+
+/// Records the version of the buffer that waits for a decision.
+fn offer(shared: &mut Shared, read: Option<&ReadBuffer>) {
+    if let (Some(buffer), Some(read)) = (&mut shared.buffer, read) {
+        buffer.offered = Some(read.version);
+    }
 }
 
 /// Takes a text in which numbers differ; `None` if it has to be read as a whole.
-fn take_numbers(shared: &mut Shared, numbers: Numbers, held: &SavedCursor) -> Option<Vec<Effect>> {
+fn take_numbers(
+    shared: &mut Shared,
+    numbers: Numbers,
+    held: &SavedCursor,
+    is_buffer: bool,
+) -> Option<Vec<Effect>> {
     let difference = numbers.difference();
     let before = shared.meaning()?;
-    let taken = shared.document.take_numbers(numbers, before.before());
+    let past = past(is_buffer);
+    let taken = shared.document.take_numbers(numbers, before.before(), past);
     let (texts, lowered) = taken?;
-    show_reload(shared, held, Some(&difference), lowered, &RELOADED);
+    let words = (!is_buffer).then_some(RELOADED);
+    show_reload(shared, held, Some(&difference), lowered, words.as_ref());
     Some(vec![Effect::Free(Arc::new((texts, before.scene)))])
+}
+
+/// What becomes of the undo history: in a buffer that follows the text here, others' changes are undone
+/// there.
+fn past(is_buffer: bool) -> Past {
+    if is_buffer {
+        Past::Rebased
+    } else {
+        Past::Cleared
+    }
 }
 
 /// Keeps a text with errors apart from unsaved edits.
@@ -327,15 +380,15 @@ fn keep_apart(shared: &mut Shared, text: Arc<String>, diagnostics: Findings) {
 }
 
 /// Installs the new meaning of the text, keeps the cursor in place and reports the change;
-/// `difference` is from the previous text to this one.
+/// `difference` is from the previous text to this one. Without words, nothing is reported.
 pub(super) fn show_reload(
     shared: &mut Shared,
     held: &SavedCursor,
     difference: Option<&Difference>,
     lowered: Lowered,
-    words: &Wording,
+    words: Option<&Wording>,
 ) {
-    if words.is_merge {
+    if words.is_some_and(|words| words.is_merge) {
         shared.document.name_step(StepName::done("merged the file"));
     }
     let (scene, sound) = (shared.scene.clone(), shared.error_count() == 0);
@@ -348,8 +401,10 @@ pub(super) fn show_reload(
             shared.disk.sound = Some(Arc::clone(&held.text));
         }
         let errors = counted(shared.error_count(), "error");
-        shared.fail(format!("the scene has {errors}"));
-    } else {
+        if words.is_some() {
+            shared.fail(format!("the scene has {errors}"));
+        }
+    } else if let Some(words) = words {
         let sound = shared.disk.sound.take();
         let from_sound = sound.map(|sound| Difference::of(&sound, shared.document.text()));
         let place = from_sound

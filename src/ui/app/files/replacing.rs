@@ -11,7 +11,7 @@ use crate::app::{Cursor, OnDisk, Overlays, Shared, text};
 use crate::keymap::Mode;
 use crate::msg::{Effect, Target};
 use crate::scene_reading::language_of;
-use document::Document;
+use document::{Document, Past};
 use language::{Language, Lowered};
 
 /// Requests the scene of a file. The present one stays until the other has been read.
@@ -51,9 +51,13 @@ pub(super) fn replace_scene(
     if shared.pictures.is_tracing() {
         effects.push(Effect::Stop(Target::Trace));
     }
-    let former = (shared.document.load(document), shared.scene.take());
+    let former = (
+        shared.document.load(document, Past::Cleared),
+        shared.scene.take(),
+    );
     effects.push(Effect::Free(Arc::new(former)));
     shared.disk.replace(path, state);
+    shared.buffer = None;
     shared.assets = Assets::default();
     shared.pictures.renew();
     if std::mem::take(&mut shared.suggestions).are_awaited() {

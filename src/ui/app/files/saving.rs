@@ -10,7 +10,7 @@ use super::reading::{
 use super::recover::keep_the_rest;
 use crate::app::shared::after_leaving::AfterLeaving;
 use crate::app::shared::messages::About;
-use crate::app::{OnDisk, PromptKind, Shared, text};
+use crate::app::{Buffer, OnDisk, PromptKind, Shared, text};
 use crate::msg::{Effect, Guard, SaveId, SaveOutcome};
 use language::Language;
 
@@ -37,7 +37,11 @@ pub(crate) fn write(shared: &mut Shared, file: Option<PathBuf>, force: Force) ->
         // The path may not even name a file.
         return vec![Effect::CheckPlace(path.clone())];
     }
-    match (file.or_else(|| shared.disk.path.clone()), force) {
+    let path = file.or_else(|| shared.disk.path.clone());
+    if path.as_ref().is_some_and(|path| shared.disk.is_own(path)) && is_saved_elsewhere(shared) {
+        return Vec::new();
+    }
+    match (path, force) {
         (Some(path), Force::Yes) => save_to(shared, &path, Guard::Anything),
         (Some(path), Force::No) if !shared.disk.is_own(&path) => {
             if refuses_errors(shared, &path) {
@@ -49,6 +53,17 @@ pub(crate) fn write(shared: &mut Shared, file: Option<PathBuf>, force: Force) ->
     }
 }
 
+/// Whether an editor saves the scene, because it owns the text; says so.
+fn is_saved_elsewhere(shared: &mut Shared) -> bool {
+    let owner = shared.buffer.as_ref().and_then(Buffer::owner);
+    let Some(words) = owner.map(|editor| format!("save in {editor}")) else {
+        return false;
+    };
+    shared.jobs.next = None;
+    shared.say(words);
+    true
+}
+
 /// Saves to the scene's file, for `w` and `:w`.
 pub(super) fn save(shared: &mut Shared) -> Vec<Effect> {
     let Some(path) = shared.disk.path.clone() else {
@@ -56,6 +71,9 @@ pub(super) fn save(shared: &mut Shared) -> Vec<Effect> {
         shared.say("this scene has no file yet: enter a name");
         return Vec::new();
     };
+    if is_saved_elsewhere(shared) {
+        return Vec::new();
+    }
     if !shared.document.is_dirty() && shared.disk.state == OnDisk::Known {
         let view = unwritten_view(shared);
         shared.say(format!("nothing to save{view}"));

@@ -1,20 +1,24 @@
 //! Undoing and redoing steps.
 
-use crate::app::{Shared, files, text};
+use crate::app::{Buffer, Shared, files, text};
 use crate::msg::Effect;
 use ::text::Span;
 
 /// Undoes a step, and says which.
 pub(crate) fn undo(shared: &mut Shared) -> Vec<Effect> {
     let done = step_back(shared);
-    shared.say(done.as_deref().unwrap_or("nothing to undo"));
+    let owner = shared.buffer.as_ref().and_then(Buffer::owner);
+    let elsewhere = owner.map(|editor| format!("undo in {editor}"));
+    shared.say(done.or(elsewhere).as_deref().unwrap_or("nothing to undo"));
     files::catch_up(shared)
 }
 
 /// Redoes a step, and says which.
 pub(crate) fn redo(shared: &mut Shared) -> Vec<Effect> {
     let done = step_forward(shared);
-    shared.say(done.as_deref().unwrap_or("nothing to redo"));
+    let owner = shared.buffer.as_ref().and_then(Buffer::owner);
+    let elsewhere = owner.map(|editor| format!("redo in {editor}"));
+    shared.say(done.or(elsewhere).as_deref().unwrap_or("nothing to redo"));
     files::catch_up(shared)
 }
 

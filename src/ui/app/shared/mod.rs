@@ -2,6 +2,7 @@
 
 pub(crate) mod after_leaving;
 pub(crate) mod assets;
+pub(crate) mod buffer;
 pub(crate) mod cursor;
 pub(crate) mod disk;
 pub(crate) mod field_row;
@@ -28,6 +29,7 @@ use std::sync::Arc;
 use crossterm::event::KeyEvent;
 
 use assets::Assets;
+use buffer::Buffer;
 use cursor::{Cursor, moved};
 use disk::Disk;
 use inspection::Inspection;
@@ -76,6 +78,8 @@ pub struct Shared {
     pub assets: Assets,
     /// The scene's own file, and what is kept beside it.
     pub disk: Disk,
+    /// The buffer that an editor has of the scene.
+    pub buffer: Option<Buffer>,
     /// The selection, the field and the value being typed.
     pub cursor: Cursor,
     /// The preview, the full-size trace and the working view.

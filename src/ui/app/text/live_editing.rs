@@ -4,7 +4,7 @@ use super::edit::{install, lowered_after, try_edits, try_edits_after};
 use crate::app::Shared;
 use crate::app::shared::cursor::Names;
 use crate::app::shared::live_edit::{LiveEdit, TakenBack};
-use document::{Document, Merged};
+use document::{Document, Merged, Past};
 use text::Edit;
 
 /// Begins to try out changes of the present text.
@@ -100,10 +100,10 @@ fn is_overtaken(shared: &Shared, live_edit: &LiveEdit) -> bool {
     live_edit.revision != shared.document.revision()
 }
 
-/// Takes a merge with the file, after which live edits can still be taken back; returns the old
+/// Takes a merge with the text from outside, after which live edits can still be taken back; returns the old
 /// document.
 #[must_use = "freeing it may take long"]
-pub(crate) fn take_merged(shared: &mut Shared, merged: Merged) -> Document {
+pub(crate) fn take_merged(shared: &mut Shared, merged: Merged, past: Past) -> Document {
     let before = shared.document.revision();
     let (menu, picker) = (&mut shared.overlays.menu, &mut shared.overlays.picker);
     let live_edits = [
@@ -121,5 +121,8 @@ pub(crate) fn take_merged(shared: &mut Shared, merged: Merged) -> Document {
             edits,
         });
     }
-    shared.document.take(merged)
+    match past {
+        Past::Cleared => shared.document.take(merged),
+        Past::Rebased => shared.document.follow(merged),
+    }
 }

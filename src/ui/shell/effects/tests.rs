@@ -26,7 +26,7 @@ fn page() -> (Runtime, Receiver<Event>) {
         }),
         ..Options::default()
     };
-    let reader = SceneLoader::start(options.watching(), None, sending(&sender)).expect("a thread");
+    let reader = SceneLoader::start(&options, sending(&sender)).expect("a thread");
     let runtime = Runtime::new(&options, reader, sender).expect("a page");
     (runtime, inbox)
 }

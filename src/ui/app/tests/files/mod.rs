@@ -1,6 +1,7 @@
 //! The files of the scene.
 
 mod assets;
+mod buffers;
 mod disk;
 mod opening;
 mod recovering;

@@ -4,6 +4,8 @@ use super::*;
 use crate::msg::{Destination, Existing, Target, Timer};
 use crate::reel::{Reel, ReelForm};
 use crate::reference::ReferenceSource;
+use ::text::Edit;
+use link::ToEditor;
 
 /// The effect in a few words; those that scripts do not name have none.
 pub(super) fn called(effect: &Effect) -> String {
@@ -60,6 +62,18 @@ pub(super) fn called(effect: &Effect) -> String {
         Effect::AdoptKept(_) => "adopt kept".to_owned(),
         Effect::DropKept(_) => "drop kept".to_owned(),
         Effect::OpenEditor { path, line } => format!("{} at {line}", of("edit", path)),
+        Effect::Tell(ToEditor::Edit(base, edits)) => {
+            let edit = |edit: &Edit| format!("{:?}→{}", edit.span.range(), edit.text);
+            let edits: Vec<_> = edits.iter().map(edit).collect();
+            format!("edit version {base}: {}", edits.join(", "))
+        }
+        Effect::Tell(ToEditor::Show { span, takes_focus }) => {
+            let focus = if *takes_focus { " with focus" } else { "" };
+            format!("show {:?}{focus}", span.range())
+        }
+        Effect::Tell(message) => format!("tell {message:?}"),
+        Effect::ForgetBuffer => "forget buffer".to_owned(),
+        Effect::FollowBuffers(follow) => format!("follow buffers {}", follow.name()),
         Effect::CopyText(text) => format!("copy {text}"),
         Effect::SetMouse(_) => "set mouse".to_owned(),
         Effect::Repaint => "repaint".to_owned(),
@@ -110,7 +124,7 @@ const TARGETS: [(&str, Target); 7] = [
     ("trial", Target::Trial),
 ];
 
-const TIMERS: [Timer; 7] = [
+const TIMERS: [Timer; 8] = [
     Timer::Settled,
     Timer::Interrupt,
     Timer::Click,
@@ -118,6 +132,7 @@ const TIMERS: [Timer; 7] = [
     Timer::Writing,
     Timer::Frame,
     Timer::Message,
+    Timer::Push,
 ];
 
 /// The name of a picture.

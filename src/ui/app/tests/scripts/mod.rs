@@ -18,6 +18,7 @@
 //! new line and a space.
 
 mod assets;
+mod buffers;
 mod effects;
 mod files;
 mod screen;

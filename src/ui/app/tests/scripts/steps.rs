@@ -100,6 +100,9 @@ impl Session {
                     Ok(Reading::new(text, baseline).expect("it fits into memory")),
                 )
             }
+            "buffer" | "typed" | "kept-by" | "answered" | "cursor" => {
+                self.buffer_event(name, rest)?
+            }
             "reads" => self.reading(first.into(), self.text_of(others)?),
             "arrives" => self.under_way.reading.take().ok_or("nothing is read")?,
             "missing" | "folder" | "no-folder" => {

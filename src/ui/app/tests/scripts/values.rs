@@ -123,6 +123,10 @@ fn overlays(app: &App, name: &str) -> Option<String> {
     Some(match name {
         "says" => words(app).to_owned(),
         "shown" => shown(app).to_owned(),
+        "buffer" => shared.buffer.as_ref().map_or_else(String::new, |buffer| {
+            let mark = if buffer.is_changed { "*" } else { "" };
+            format!("{}{mark}", buffer.editor)
+        }),
         "past" => joined(past, "; "),
         "fault" => failed.map(|message| &message.text).words(),
         "asks" => question(app),

@@ -1,0 +1,224 @@
+//! The buffer that an editor has of the scene: the outside text while it is open, instead of the file.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use link::{Follow, Heard, Listening, Opening, Sender, ToEditor, ToInterface};
+
+use crate::msg::{BufferNews, Msg};
+
+/// The maximum number of editors that are connected at a time.
+const EDITORS: usize = 8;
+
+/// The connections of editors that have the scene open.
+#[derive(Debug)]
+pub(super) struct Buffers {
+    follow: Follow,
+    /// The socket; dropping it ends it.
+    listening: Option<Listening>,
+    senders: BTreeMap<u64, Sender>,
+    owner: Option<Owner>,
+}
+
+/// The editor whose buffer is the outside text: the first one that opened it.
+#[derive(Debug)]
+struct Owner {
+    /// The number of its connection; `None` once that ended without the buffer having been closed.
+    connection: Option<u64>,
+    /// The buffer as it is now.
+    buffer: Opening,
+    /// Whether the whole text was asked for, because a change does not fit.
+    awaits_whole: bool,
+}
+
+/// The outside text.
+#[derive(Clone, Debug)]
+pub(super) struct Outside {
+    pub(super) text: String,
+    pub(super) version: u64,
+    /// Whether the editor is gone.
+    pub(super) is_left: bool,
+}
+
+impl Buffers {
+    /// No buffers yet.
+    pub(super) fn new(follow: Follow) -> Self {
+        Self {
+            follow,
+            listening: None,
+            senders: BTreeMap::new(),
+            owner: None,
+        }
+    }
+
+    /// Listens for editors of this scene from now on, instead of those of another one; returns why that is
+    /// impossible, if so.
+    pub(super) fn listen(
+        &mut self,
+        scene: &Path,
+        hear: impl Fn(Heard) + Clone + Send + 'static,
+    ) -> Option<String> {
+        self.senders.clear();
+        self.owner = None;
+        // The socket of the same scene has to be free.
+        self.listening = None;
+        match link::listen(scene, hear) {
+            Ok(listening) => {
+                self.listening = listening;
+                None
+            }
+            Err(error) => Some(format!("cannot listen for editors: {error}")),
+        }
+    }
+
+    /// The outside text, if an editor's buffer is followed.
+    pub(super) fn outside(&self) -> Option<Outside> {
+        let owner = self.owner.as_ref().filter(|owner| self.follows(owner))?;
+        Some(Outside {
+            text: owner.buffer.text.clone(),
+            version: owner.buffer.version,
+            is_left: owner.connection.is_none(),
+        })
+    }
+
+    /// Follows buffers at another time from now on; returns what that changes.
+    pub(super) fn follow(&mut self, follow: Follow) -> Vec<Msg> {
+        self.follow = follow;
+        let owner = self.owner.as_ref();
+        owner.map_or_else(Vec::new, |owner| self.opened(owner))
+    }
+
+    /// Forgets a buffer whose editor is gone.
+    pub(super) fn forget(&mut self) {
+        self.owner.take_if(|owner| owner.connection.is_none());
+    }
+
+    /// Sends a message to the editor.
+    pub(super) fn tell(&mut self, message: &ToEditor) {
+        let connection = self.owner.as_ref().and_then(|owner| owner.connection);
+        if let Some(connection) = connection {
+            self.send(connection, message);
+        }
+    }
+
+    /// Takes what was heard; returns what it changes.
+    pub(super) fn heard(&mut self, heard: Heard) -> Vec<Msg> {
+        match heard {
+            Heard::Came(connection, sender) => {
+                if self.senders.len() < EDITORS {
+                    self.senders.insert(connection, sender);
+                }
+                Vec::new()
+            }
+            Heard::Said(connection, message, _) => self.said(connection, message),
+            Heard::Left(connection) => {
+                self.senders.remove(&connection);
+                self.left(connection)
+            }
+        }
+    }
+
+    fn said(&mut self, connection: u64, message: ToInterface) -> Vec<Msg> {
+        let other = self.owner.as_ref();
+        let other = other.filter(|owner| owner.connection.is_some_and(|owner| owner != connection));
+        if let Some(owner) = other {
+            let busy = ToEditor::Busy(owner.buffer.editor.clone());
+            self.send(connection, &busy);
+            self.senders.remove(&connection);
+            return Vec::new();
+        }
+        match message {
+            ToInterface::Open(buffer) => {
+                let was_open = self.owner.as_ref().is_some_and(|owner| owner.awaits_whole);
+                let owner = Owner {
+                    connection: Some(connection),
+                    buffer,
+                    awaits_whole: false,
+                };
+                let news = if was_open {
+                    vec![Msg::FileChanged]
+                } else {
+                    self.opened(&owner)
+                };
+                self.owner = Some(owner);
+                news
+            }
+            ToInterface::Change(version, edits) => {
+                let Some(owner) = &mut self.owner else {
+                    return Vec::new();
+                };
+                if owner.awaits_whole {
+                    return Vec::new();
+                }
+                let buffer = &mut owner.buffer;
+                let has = |edit: &text::Edit| buffer.text.get(edit.span.range()).is_some();
+                if version != buffer.version + 1 || !edits.iter().all(has) {
+                    owner.awaits_whole = true;
+                    self.send(connection, &ToEditor::Whole);
+                    return Vec::new();
+                }
+                text::apply(&mut buffer.text, &edits);
+                buffer.version = version;
+                vec![Msg::FileChanged]
+            }
+            ToInterface::Saved => vec![Msg::Buffer(BufferNews::Saved)],
+            ToInterface::Close => {
+                self.owner = None;
+                vec![Msg::Buffer(BufferNews::Closed), Msg::FileChanged]
+            }
+            ToInterface::Cursor(at) => {
+                let version = self.owner.as_ref().map(|owner| owner.buffer.version);
+                let cursor = |version| Msg::Buffer(BufferNews::Cursor { at, version });
+                version.map(cursor).into_iter().collect()
+            }
+            ToInterface::Answer(base, is_made) => {
+                let version = self
+                    .owner
+                    .as_ref()
+                    .map_or(base, |owner| owner.buffer.version);
+                vec![Msg::Buffer(BufferNews::Answered {
+                    base,
+                    is_made,
+                    version,
+                })]
+            }
+        }
+    }
+
+    /// Takes the end of a connection. A buffer that was not closed remains until it is forgotten.
+    fn left(&mut self, connection: u64) -> Vec<Msg> {
+        let is_followed = self.outside().is_some();
+        let is_owner = |owner: &mut Owner| owner.connection == Some(connection);
+        let Some(mut owner) = self.owner.take_if(is_owner) else {
+            return Vec::new();
+        };
+        if !is_followed {
+            return vec![Msg::Buffer(BufferNews::Closed)];
+        }
+        owner.connection = None;
+        self.owner = Some(owner);
+        vec![Msg::Buffer(BufferNews::Left)]
+    }
+
+    /// What a buffer that is open from now on, or followed at another time, changes.
+    fn opened(&self, owner: &Owner) -> Vec<Msg> {
+        let opened = BufferNews::Opened {
+            editor: owner.buffer.editor.clone(),
+            can: owner.buffer.can,
+            is_followed: self.follows(owner),
+        };
+        vec![Msg::Buffer(opened), Msg::FileChanged]
+    }
+
+    fn follows(&self, owner: &Owner) -> bool {
+        [self.follow, owner.buffer.follow] == [Follow::Typing; 2]
+    }
+
+    fn send(&mut self, connection: u64, message: &ToEditor) {
+        let sender = self.senders.get_mut(&connection);
+        if sender.is_some_and(|sender| sender.send(&message.to_json()).is_err()) {
+            // Its end is heard too.
+            self.senders.remove(&connection);
+        }
+    }
+}
