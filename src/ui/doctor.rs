@@ -152,8 +152,12 @@ fn pictures(
     let shown = protocols.iter().filter(|(_, protocol)| shows(*protocol));
     let shown: Vec<_> = shown.map(|(name, _)| *name).collect();
     let words = shown.join(", ");
+    let named = client.filter(|client| client.placeholders.is_some());
     let mut lines = vec![match (answers, shown.first(), client) {
         (None, ..) => "half blocks: the terminal was not queried".to_owned(),
+        _ if named.is_some_and(|client| client.passes_through) => {
+            "real pixels by kitty's Unicode placeholders, text that tmux moves".to_owned()
+        }
         (_, None, _) => "half blocks: the terminal reports no picture protocol".to_owned(),
         (_, _, Some(client)) if !client.has_sixel => {
             format!("half blocks: tmux knows {words}, but not of its terminal")
@@ -162,17 +166,20 @@ fn pictures(
     }];
     match cell.or_else(|| answers.and_then(Answers::cell_size)) {
         Some((width, height)) => lines.push(format!("cells of {width}x{height} pixels")),
-        None => lines.push("the size of cells is unknown, which sixels need".to_owned()),
+        None => lines.push(
+            "the size of cells is unknown, which sixels and Unicode placeholders need".to_owned(),
+        ),
     }
     if let Some(client) = client {
-        let passes = if client.passes_through {
-            "passes"
-        } else {
-            "does not pass"
+        let words = match (client.passes_through, named.is_some()) {
+            (true, _) => "tmux passes wrapped sequences on (allow-passthrough)",
+            (false, false) => "tmux does not pass wrapped sequences on (allow-passthrough)",
+            (false, true) => {
+                "tmux does not pass on real pixels, which its terminal shows: \
+                 set -g allow-passthrough on"
+            }
         };
-        lines.push(format!(
-            "tmux {passes} wrapped sequences on (allow-passthrough)"
-        ));
+        lines.push(words.to_owned());
     }
     lines.push(
         "--pixels chooses half, quadrant, sextant or octant blocks, or a protocol".to_owned(),
@@ -355,6 +362,13 @@ mod tests {
                 ..tmux::Client::default()
             })
         };
+        let named = |passes_through| {
+            Some(tmux::Client {
+                placeholders: Some(0),
+                passes_through,
+                ..tmux::Client::default()
+            })
+        };
         for (replies, client, words) in table! {
             None, None => "was not queried";
             Some(&[][..]), None => "reports no picture protocol";
@@ -362,6 +376,8 @@ mod tests {
             Some(&[sixel]), None => "by sixel;";
             Some(&[sixel]), tmux(true) => "by sixel;";
             Some(&[sixel]), tmux(false) => "half blocks: tmux";
+            Some(&[]), named(true) => "by kitty's Unicode placeholders";
+            Some(&[]), named(false) => "set -g allow-passthrough on";
         } {
             let answers = replies.map(answers);
             let said = pictures(answers.as_ref(), client, Some((9, 18))).join("\n");

@@ -5,7 +5,7 @@
 //! both halves are equal.
 //!
 //! Nothing in a cell can reach the terminal as a command: control characters are replaced, and a
-//! cell shows one character with at most one combining mark.
+//! cell shows one character with at most one combining mark, or a few that name a part of a picture.
 
 use std::collections::BTreeSet;
 use std::convert::Infallible;
@@ -17,11 +17,16 @@ use ratatui::style::Modifier;
 use unicode_width::UnicodeWidthChar;
 
 use super::colour::{ColourDepth, Ink};
+use super::graphics::{MARKS, PLACEHOLDER};
 use super::pen::{Pen, Style, VISIBLE_ON_BLANK, push_number};
 
 /// Synchronized output, DEC private mode 2026: the terminal shows a frame once it is complete.
 const BEGIN: &[u8] = b"\x1b[?2026h";
 const END: &[u8] = b"\x1b[?2026l";
+
+/// Wraps lines at the last column, DEC private mode 7, which is off between cells.
+const WRAP: &[u8] = b"\x1b[?7h";
+const DO_NOT_WRAP: &[u8] = b"\x1b[?7l";
 
 /// Encodes the cells of each frame into one buffer of bytes; performs no I/O itself.
 ///
@@ -106,6 +111,12 @@ impl AnsiBackend {
         self.out.extend_from_slice(bytes);
     }
 
+    /// Puts bytes that change neither the cursor nor the style before the rest of the frame.
+    pub(super) fn precede(&mut self, bytes: &[u8]) {
+        let start = BEGIN.len();
+        self.out.splice(start..start, bytes.iter().copied());
+    }
+
     /// Appends a picture that begins at a cell. It may leave the cursor anywhere.
     pub(super) fn picture(&mut self, at: Position, bytes: &[u8]) {
         self.move_to(at);
@@ -164,10 +175,24 @@ impl AnsiBackend {
         }
     }
 
+    /// Writes the character of a cell; returns whether it takes one column for sure. tmux combines
+    /// characters with the one before the cursor, which does not leave the last column unless lines
+    /// are wrapped.
+    fn put_character(&mut self, cell: &Cell, is_last: bool) -> bool {
+        if !is_last || !cell.symbol().starts_with(PLACEHOLDER) {
+            return push_character(&mut self.out, cell);
+        }
+        self.out.extend_from_slice(WRAP);
+        let is_narrow = push_character(&mut self.out, cell);
+        self.out.extend_from_slice(DO_NOT_WRAP);
+        is_narrow
+    }
+
     fn put(&mut self, at: Position, cell: &Cell) {
         let fg = self.depth.ink(cell.fg);
         let bg = self.depth.ink(cell.bg);
         let halves = Halves::of(cell, fg, bg);
+        let is_last = at.x + 1 == self.size.width;
         self.blank_wide(at);
         if halves.is_none() && is_wide(cell) {
             self.blank_wide(Position { x: at.x + 1, ..at });
@@ -182,9 +207,9 @@ impl AnsiBackend {
         } else {
             let style = Style::exactly(fg, bg, cell.modifier);
             self.pen.apply(&style, &mut self.out);
-            push_character(&mut self.out, cell)
+            self.put_character(cell, is_last)
         };
-        self.place = if is_narrow && at.x + 1 < self.size.width {
+        self.place = if is_narrow && !is_last {
             CursorPosition::At(Position::new(at.x + 1, at.y))
         } else {
             CursorPosition::Row(at.y)
@@ -347,10 +372,19 @@ fn push_character(out: &mut Vec<u8>, cell: &Cell) -> bool {
         Some(character) if character.width().is_some_and(|width| width != 0) => character,
         _ => ' ',
     };
-    let mark = characters.next();
-    let mark = mark.filter(|&next| base != '\u{fffd}' && is_mark(next));
-    for character in [Some(base), mark].into_iter().flatten() {
+    let most = match base {
+        '\u{fffd}' => 0,
+        PLACEHOLDER => MARKS,
+        _ => 1,
+    };
+    let mut push = |character: char| {
         out.extend_from_slice(character.encode_utf8(&mut [0; 4]).as_bytes());
+    };
+    push(base);
+    let mut is_plain = true;
+    for mark in characters.take(most).take_while(|&next| is_mark(next)) {
+        push(mark);
+        is_plain = base == PLACEHOLDER;
     }
     let width = base.width().map_or(1, |width| width as u16);
     // A lone control character has no defined width.
@@ -362,7 +396,8 @@ fn push_character(out: &mut Vec<u8>, cell: &Cell) -> bool {
     for _ in width..room {
         out.push(b' ');
     }
-    width == 1 && room == 1 && mark.is_none()
+    // Whoever shows placeholders agrees on their width.
+    width == 1 && room == 1 && is_plain
 }
 
 /// Distinguishes accents and the like from invisible characters that join, direct or modify others.

@@ -1,12 +1,13 @@
 //! The picture on the screen: where it is, and what must be sent to change it.
 
+use std::borrow::Cow;
 use std::io;
 
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Color;
 
-use super::graphics::{Means, Pixmap};
+use super::graphics::{Means, Pixmap, Protocol, Turn, name};
 
 /// Keeps account of the picture on the screen.
 #[derive(Debug, Default)]
@@ -14,6 +15,8 @@ pub(super) struct Canvas {
     /// How pictures are sent; `None` if none are.
     pub(super) means: Option<Means>,
     shown: Option<Placed>,
+    /// Which of two alternating pictures was sent last.
+    turn: Turn,
     /// Whether a picture that erasing cells does not erase may still be on the screen.
     lingers: bool,
 }
@@ -28,19 +31,20 @@ struct Placed {
 }
 
 /// What to do about the picture before a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Removal {
     /// Nothing: there is none, or it stays where it is.
     None,
     /// Send these bytes.
-    Bytes(&'static str),
+    Bytes(Cow<'static, str>),
     /// Erase the screen and draw all of it: the cells of the picture are unknown to the drawing.
     Repaint,
 }
 
 /// A picture to be sent, and the cells to be drawn over it afterwards.
 pub(super) struct Sending {
-    pub(super) at: Position,
+    /// Where the cursor must be; `None` if the picture precedes the text that names it.
+    pub(super) at: Option<Position>,
     pub(super) bytes: Vec<u8>,
     pub(super) over: Vec<(Position, Cell)>,
 }
@@ -73,6 +77,34 @@ impl Canvas {
         Removal::None
     }
 
+    /// Makes the blank cells of a place name their parts of a picture, if that is how it is shown.
+    pub(super) fn fill(&self, place: Rect, pixmap: &Pixmap, frame: &mut Buffer) {
+        let Some(Protocol::Placeholders { pane }) = self.means.map(|means| means.protocol) else {
+            return;
+        };
+        let is_shown = self.shown(place, pixmap).is_some();
+        let turn = if is_shown {
+            self.turn
+        } else {
+            self.turn.other()
+        };
+        for at in place.intersection(frame.area).positions() {
+            if !is_text(&frame[at]) {
+                name(
+                    &mut frame[at],
+                    (pane, turn),
+                    (at.y - place.y, at.x - place.x),
+                );
+            }
+        }
+    }
+
+    /// The picture on the screen if it is this one.
+    fn shown(&self, place: Rect, pixmap: &Pixmap) -> Option<&Placed> {
+        let shown = self.shown.as_ref();
+        shown.filter(|shown| shown.place == place && shown.pixmap == *pixmap)
+    }
+
     /// What must be sent so that `pixmap` is in the cells of `place`, with the text `over` it; `None`
     /// if it is there.
     pub(super) fn sending(
@@ -88,14 +120,13 @@ impl Canvas {
             over.clear();
         }
         let text = || over.iter().map(|(position, _)| *position);
-        let is_shown = self.shown.as_ref().is_some_and(|shown| {
-            shown.place == place && shown.pixmap == *pixmap && text().eq(shown.text.iter().copied())
-        });
-        if is_shown {
+        let shown = self.shown(place, pixmap);
+        if shown.is_some_and(|shown| text().eq(shown.text.iter().copied())) {
             return Ok(None);
         }
+        self.turn = self.turn.other();
         let mut bytes = Vec::new();
-        means.encode(pixmap, place, &mut bytes)?;
+        means.encode(pixmap, self.turn, place, &mut bytes)?;
         self.lingers = false;
         self.shown = Some(Placed {
             place,
@@ -103,7 +134,7 @@ impl Canvas {
             text: text().collect(),
         });
         Ok(Some(Sending {
-            at: place.as_position(),
+            at: (!means.is_named()).then(|| place.as_position()),
             bytes,
             over,
         }))
@@ -113,10 +144,13 @@ impl Canvas {
 /// The cells of a place that are not blank.
 pub(super) fn text_over(place: Rect, frame: &Buffer) -> Vec<(Position, Cell)> {
     let cells = place.intersection(frame.area).positions();
-    let is_text = |cell: &Cell| cell.symbol() != " " || cell.bg != Color::Reset;
     let cells = cells.filter(|&position| is_text(&frame[position]));
     let text = cells.map(|position| (position, frame[position].clone()));
     text.collect()
+}
+
+fn is_text(cell: &Cell) -> bool {
+    cell.symbol() != " " || cell.bg != Color::Reset
 }
 
 #[cfg(test)]
@@ -125,7 +159,8 @@ mod tests {
     use crate::layout::tests::size;
     use crate::terminal::{Protocol, Wrapping};
 
-    const PROTOCOLS: [Protocol; 3] = [Protocol::Kitty, Protocol::Iterm, Protocol::Sixel];
+    const NAMED: Protocol = Protocol::Placeholders { pane: 0 };
+    const PROTOCOLS: [Protocol; 4] = [Protocol::Kitty, NAMED, Protocol::Iterm, Protocol::Sixel];
     const PLACE: Rect = Rect::new(1, 1, 4, 2);
     const ELSEWHERE: Rect = Rect::new(2, 1, 4, 2);
 
@@ -179,7 +214,7 @@ mod tests {
     }
 
     fn canvas_is_content(protocol: Protocol) -> bool {
-        protocol != Protocol::Kitty
+        ![Protocol::Kitty, NAMED].contains(&protocol)
     }
 
     #[test]
@@ -189,7 +224,7 @@ mod tests {
             let (gone, moved) = if canvas_is_content(protocol) {
                 (Removal::Repaint, Removal::Repaint)
             } else {
-                let ending = canvas.means.map_or("", Means::ending);
+                let ending = canvas.means.map(Means::ending).unwrap_or_default();
                 (Removal::Bytes(ending), Removal::None)
             };
             assert_eq!(canvas.removal(None), Removal::None, "there is none");
@@ -201,5 +236,35 @@ mod tests {
             assert_eq!(canvas.removal(None), gone);
             assert_eq!(canvas.removal(None), Removal::None);
         }
+    }
+
+    /// The symbols and colours of the place, after a picture with this text over it.
+    fn filled(canvas: &mut Canvas, light: u8, text: &str) -> Vec<(String, Color)> {
+        let mut frame = frame(text);
+        canvas.fill(PLACE, &pixmap(light), &mut frame);
+        sent(canvas, light, text);
+        let cells = PLACE.positions().map(|at| &frame[at]);
+        cells
+            .map(|cell| (cell.symbol().to_owned(), cell.fg))
+            .collect()
+    }
+
+    #[test]
+    fn blank_cells_name_the_picture_that_is_sent() {
+        let mut canvas = canvas(NAMED);
+        let first = filled(&mut canvas, 1, "");
+        assert_eq!(filled(&mut canvas, 1, ""), first, "the same picture");
+        let next = filled(&mut canvas, 2, "");
+        for (one, other) in first.iter().zip(&next) {
+            assert_eq!(one.0, other.0);
+            assert_ne!(one.1, other.1, "the next one has another number");
+        }
+        assert_eq!(filled(&mut canvas, 3, ""), first, "numbers alternate");
+        let covered = filled(&mut canvas, 3, "ab");
+        assert_eq!([&covered[1].0, &covered[2].0], ["a", "b"]);
+        assert_eq!([&covered[0], &covered[3]], [&first[0], &first[3]]);
+        assert_eq!(filled(&mut canvas, 3, ""), first, "uncovered");
+        canvas.forget();
+        assert_eq!(filled(&mut canvas, 3, ""), next, "erased, so sent again");
     }
 }

@@ -112,7 +112,7 @@ impl Terminal {
             return Ok(0);
         }
         self.fit();
-        let mut painted = self.painted(&mut paint);
+        let mut painted = self.painted(pixmap, &mut paint);
         let place = painted.as_ref().map(|(place, _)| *place);
         match self.canvas.removal(place.filter(|_| pixmap.is_some())) {
             Removal::None => {}
@@ -120,14 +120,17 @@ impl Terminal {
             Removal::Repaint => {
                 self.screen.backend_mut().discard();
                 self.repaint();
-                painted = self.painted(&mut paint);
+                painted = self.painted(pixmap, &mut paint);
             }
         }
         if let (Some((place, over)), Some(pixmap)) = (painted, pixmap)
             && let Some(sending) = self.canvas.sending(place, pixmap, over)?
         {
             let backend = self.screen.backend_mut();
-            backend.picture(sending.at, &sending.bytes);
+            match sending.at {
+                Some(at) => backend.picture(at, &sending.bytes),
+                None => backend.precede(&sending.bytes),
+            }
             let over = sending.over.iter();
             let Ok(()) = backend.draw(over.map(|(at, cell)| (at.x, at.y, cell)));
         }
@@ -172,14 +175,19 @@ impl Terminal {
     }
 
     /// Draws a frame into the bytes to send. Returns the cells left to a picture, and those of them
-    /// that have text.
+    /// that have text; the others name `pixmap` if it is shown so.
     fn painted(
         &mut self,
+        pixmap: Option<&Pixmap>,
         paint: &mut impl FnMut(&mut Frame) -> Option<Rect>,
     ) -> Option<(Rect, Vec<(Position, Cell)>)> {
         let mut painted = None;
+        let canvas = &self.canvas;
         let Ok(_) = self.screen.draw(|frame| {
             painted = paint(frame).map(|place| (place, text_over(place, frame.buffer_mut())));
+            if let (Some((place, _)), Some(pixmap)) = (&painted, pixmap) {
+                canvas.fill(*place, pixmap, frame.buffer_mut());
+            }
         });
         painted
     }

@@ -37,6 +37,7 @@ pub use colour::{Choice, ColourDepth};
 pub(crate) use colour::{THEME, colour_on_screen};
 pub use decode::Decoder;
 pub use event::Event;
+pub(crate) use graphics::MOST_PLACEHOLDERS;
 pub use graphics::{Means, Pixmap, Protocol, Wrapping};
 pub use guard::{Mouse, Terminal};
 pub use input::{Input, Unread};

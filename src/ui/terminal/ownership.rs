@@ -7,7 +7,7 @@ use std::backtrace::{Backtrace, BacktraceStatus};
 use std::panic::{self, PanicHookInfo};
 use std::sync::TryLockError;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, Weak};
 use std::thread::{self, ThreadId};
 
 use super::graphics::{self, Means};
@@ -26,7 +26,7 @@ pub(super) enum Ownership {
     GivenBack,
 }
 
-/// What ends pictures: nothing if none were sent.
+/// What ends pictures: nothing if none were sent. What is not among them depends on the pane of tmux.
 const ENDINGS: [&str; 4] = [
     "",
     graphics::END,
@@ -47,8 +47,10 @@ pub(super) struct GuardState {
     has_kept_edits: AtomicBool,
     /// Whether the terminal keeps the Esc key apart from the beginnings of sequences for us.
     has_keys_apart: AtomicBool,
-    /// What ends pictures, as an index into [`ENDINGS`].
+    /// What ends pictures, as an index into [`ENDINGS`], or their number for `pane_ending`.
     ending: AtomicUsize,
+    /// What ends pictures of this pane, which stays the same.
+    pane_ending: OnceLock<String>,
     panics: Mutex<Vec<String>>,
 }
 
@@ -62,6 +64,7 @@ impl GuardState {
             has_kept_edits: AtomicBool::new(false),
             has_keys_apart: AtomicBool::new(false),
             ending: AtomicUsize::new(0),
+            pane_ending: OnceLock::new(),
             panics: Mutex::new(Vec::new()),
         });
         let previous = panic::take_hook();
@@ -117,15 +120,23 @@ impl GuardState {
     }
 
     /// What ends pictures on the screen, also for a signal handler: nothing if there are none.
-    pub(super) fn ending(&self) -> &'static str {
-        ENDINGS[self.ending.load(Ordering::Relaxed)]
+    pub(super) fn ending(&self) -> &str {
+        let known = ENDINGS.get(self.ending.load(Ordering::Acquire));
+        known.map_or_else(
+            || self.pane_ending.get().map_or("", String::as_str),
+            |known| *known,
+        )
     }
 
     /// Records how pictures are sent, if any are.
     pub(super) fn note_means(&self, means: Option<Means>) {
-        let ending = means.map_or("", Means::ending);
+        let ending = means.map(Means::ending).unwrap_or_default();
         let known = ENDINGS.iter().position(|known| *known == ending);
-        self.ending.store(known.unwrap_or(0), Ordering::Relaxed);
+        let index = known.unwrap_or_else(|| {
+            self.pane_ending.get_or_init(|| ending.into_owned());
+            ENDINGS.len()
+        });
+        self.ending.store(index, Ordering::Release);
     }
 
     /// Returns the panics of other threads since the last call.

@@ -11,13 +11,18 @@ pub struct Client {
     pub has_sixel: bool,
     /// Whether wrapped sequences are passed on to the terminal.
     pub passes_through: bool,
+    /// The number of the pane, if the terminal shows pictures in place of text that names them.
+    pub placeholders: Option<u32>,
     /// Columns to the left of the pane and rows above it.
     pub corner: (u16, u16),
 }
 
 /// What tmux is asked, by its formats, one a line.
 const FORMAT: &str = "#{client_termfeatures}\n#{allow-passthrough}\n#{pane_left}\n#{pane_top}\n\
-                      #{status}\n#{status-position}";
+                      #{status}\n#{status-position}\n#{pane_id}\n#{client_utf8}\n#{client_termtype}";
+
+/// The first version of kitty that shows pictures in place of text.
+const KITTY: (u32, u32) = (0, 28);
 
 /// Whether the process runs in tmux.
 pub(crate) fn is_around() -> bool {
@@ -52,12 +57,27 @@ fn read(answer: &str) -> Client {
         lines => lines.parse().unwrap_or(1),
     };
     let above = if next() == "top" { status } else { 0 };
+    let pane = next().trim_start_matches('%').parse().ok();
+    let is_utf8 = next() == "1";
+    let has_placeholders = has_placeholders(next());
     Client {
         has_true_colour: features.contains(&"RGB"),
         has_sixel: features.contains(&"sixel"),
         passes_through,
+        placeholders: pane.filter(|_| is_utf8 && has_placeholders),
         corner: (left.parse().unwrap_or(0), top.parse().unwrap_or(0) + above),
     }
+}
+
+/// Whether a terminal of this name and version shows pictures in place of text. `WezTerm` and Konsole
+/// know kitty's protocol without that.
+fn has_placeholders(terminal: &str) -> bool {
+    let Some(version) = terminal.strip_prefix("kitty(") else {
+        return terminal.starts_with("ghostty");
+    };
+    let mut numbers = version.split('.').map_while(|number| number.parse().ok());
+    let version = numbers.next().zip(numbers.next());
+    version.is_some_and(|version| KITTY <= version)
 }
 
 #[cfg(test)]
@@ -71,6 +91,7 @@ mod tests {
             has_sixel: sixel,
             passes_through: through,
             corner,
+            ..Client::default()
         };
         for (answer, expected) in table! {
             "256,RGB,bpaste,title\n\n0\n0\non\nbottom\n" => client(true, false, false, (0, 0));
@@ -80,6 +101,26 @@ mod tests {
             "" => Client::default();
         } {
             assert_eq!(read(answer), expected, "{answer}");
+        }
+    }
+
+    #[test]
+    fn only_some_terminals_show_pictures_in_place_of_text() {
+        for (terminal, is_utf8, expected) in table! {
+            "kitty(0.28.1)", 1 => true;
+            "kitty(0.27.1)", 1 => false;
+            "kitty(1.0.0)", 1 => true;
+            "kitty(0.46.2)", 0 => false;
+            "ghostty 1.2.0", 1 => true;
+            "WezTerm 20240203-110809", 1 => false;
+            "Konsole 23.08.1", 1 => false;
+            "tmux 3.5a", 1 => false;
+            "", 1 => false;
+        } {
+            let client = read(&format!(
+                "\non\n0\n0\non\nbottom\n%7\n{is_utf8}\n{terminal}\n"
+            ));
+            assert_eq!(client.placeholders, expected.then_some(7), "{terminal}");
         }
     }
 }

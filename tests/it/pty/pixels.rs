@@ -170,6 +170,99 @@ fn the_editor_gets_a_screen_without_the_picture() {
     quit(session);
 }
 
+/// The cells that name a part of a picture: where they are, in which colour, and their marks.
+fn named(screen: &Screen) -> Vec<((u16, u16), Color, String)> {
+    let (rows, columns) = screen.size();
+    let (rows, columns) = (rows.get(), columns.get());
+    let places = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
+    let named = places.filter_map(|at| {
+        let cell = screen.cell(at.0, at.1)?;
+        let marks = cell.contents().strip_prefix('\u{10eeee}')?;
+        Some((at, cell.fgcolor(), marks.to_owned()))
+    });
+    named.collect()
+}
+
+/// Waits until every cell of a picture names its part of the finished one, from the first row and
+/// column; returns the number of the picture and its cells.
+fn wait_for_named(session: &mut Session) -> (u32, usize) {
+    wait_for_picture(session);
+    session.wait("waiting for the picture", |screen| {
+        !named(screen).is_empty()
+    });
+    let cells = named(session.screen());
+    let ((top, left), colour, first) = cells.first().cloned().expect("cells");
+    assert!(first.starts_with("\u{305}\u{305}"), "{first:?}");
+    // The first rows and columns of kitty's list.
+    let marks: Vec<_> = "\u{305}\u{30d}\u{30e}\u{310}\u{312}".chars().collect();
+    for ((row, column), _, text) in &cells {
+        let [row, column] = [row - top, column - left].map(usize::from);
+        let (row, column) = (marks.get(row), marks.get(column));
+        let mut text = text.chars();
+        let (said_row, said_column) = (text.next(), text.next());
+        assert!(row.is_none() || row.copied() == said_row);
+        assert!(column.is_none() || column.copied() == said_column);
+    }
+    assert!(cells.iter().all(|(_, other, _)| *other == colour));
+    let Color::Idx(low) = colour else {
+        panic!("{colour:?}");
+    };
+    (72 << 24 | u32::from(low), cells.len())
+}
+
+#[test]
+fn in_tmux_cells_name_their_part_of_the_picture() {
+    let place = Place::new();
+    place.write(
+        "tmux",
+        "#!/bin/sh\nprintf 'RGB\\non\\n40\\n0\\non\\nbottom\\n%%2\\n1\\nkitty(0.40.0)\\n'\n",
+    );
+    let runs = fs::Permissions::from_mode(0o700);
+    fs::set_permissions(place.at("tmux"), runs).expect("it is there");
+    let folder = place.directory.path();
+    let environment = [
+        ("TMUX", "/tmp/tmux,1,0"),
+        ("PATH", folder.to_str().expect("a text")),
+    ];
+    let mut session = Session::start(folder, &["balls.ray"], (80, 24), &environment);
+    wait_for_bytes(&mut session, b"\x1b[>q\x1b[16t", 0);
+    session.send(CELLS);
+    let (number, count) = wait_for_named(&mut session);
+    // What tmux removes: the wrapping, and one of two escapes.
+    let whole = String::from_utf8_lossy(&session.written).into_owned();
+    let passed = whole.replace("\x1bPtmux;", "").replace("\x1b\x1b", "\x1b");
+    let (control, png) = kitty(passed.as_bytes());
+    assert!(
+        control.contains(&format!("U=1,f=100,i={number},p=1,")),
+        "{control}"
+    );
+    let (columns, rows) = (value(&control, "c"), value(&control, "r"));
+    assert_eq!(columns as usize * rows as usize, count, "{control}");
+    let pixels = pixels_of(&png);
+    assert_eq!((pixels.width(), pixels.height()), (4 * columns, 8 * rows));
+
+    // A page covers it, and gives its place back.
+    session.send("?");
+    session.wait_for(" Keys ");
+    session.wait("half blocks", |screen| named(screen).is_empty());
+    session.send(ESC);
+    let (again, same) = wait_for_named(&mut session);
+    assert_eq!(same, count);
+    assert_ne!(again, number, "numbers alternate");
+
+    let sent = session.written.len();
+    session.send("q");
+    let removal = format!(
+        "\x1bPtmux;\x1b\x1b\\\x1b\x1b_Ga=d,d=I,i={},q=2\x1b\x1b\\\x1b\x1b_Ga=d,d=I,i={},q=2\x1b\x1b\\\x1b\\",
+        number.min(again),
+        number.max(again),
+    );
+    let removed = wait_for_bytes(&mut session, removal.as_bytes(), sent);
+    let left = wait_for_bytes(&mut session, LEAVE_SCREEN, sent);
+    assert!(removed < left);
+    assert_end(session, 0);
+}
+
 #[test]
 fn sixels_fill_their_cells_and_are_erased_by_cells() {
     let place = Place::new();

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use crate::pixels::Pixels;
 use crate::terminal::tmux::{self, Client};
-use crate::terminal::{ColourDepth, Link, Means, Protocol, Reply, Wrapping};
+use crate::terminal::{ColourDepth, Link, MOST_PLACEHOLDERS, Means, Protocol, Reply, Wrapping};
 use crate::view::{Drawing, Mosaic};
 
 /// The most pixels of a screen that are traced and sent as pictures: at more, a frame takes longer
@@ -87,6 +87,13 @@ impl Known {
         }
     }
 
+    /// Pictures in place of text, if tmux passes them on to a terminal that knows them.
+    fn placeholders(&self) -> Option<Protocol> {
+        let client = self.tmux.filter(|client| client.passes_through)?;
+        let pane = client.placeholders?;
+        Some(Protocol::Placeholders { pane })
+    }
+
     /// The best protocol that the terminal says it shows. tmux draws sixels itself; what it passes
     /// on stays where it is when windows or panes change, so that is only for those who ask.
     fn best(&self) -> Option<Protocol> {
@@ -112,14 +119,20 @@ pub(super) enum Manner {
 }
 
 impl Manner {
-    /// What to draw with, at best. `cell` is the size of a cell as the system knows it. Sixels
-    /// cannot be scaled, so they need it.
+    /// What to draw with, at best, on a screen of so many columns and rows. `cell` is the size of a cell
+    /// as the system knows it. Sixels cannot be scaled and placeholders not stretched, so they need it.
     pub(super) fn of(
         choice: Pixels,
         depth: ColourDepth,
         known: &Known,
+        (columns, rows): (u16, u16),
         cell: Option<(u16, u16)>,
     ) -> Self {
+        let cell = cell.or(known.cell);
+        let can_name = ColourDepth::Palette256 <= depth
+            && columns.max(rows) <= MOST_PLACEHOLDERS
+            && cell.is_some();
+        let placeholders = known.placeholders().filter(|_| can_name);
         let mosaic = |mosaic| {
             if depth == ColourDepth::Mono {
                 Self::Half
@@ -132,12 +145,14 @@ impl Manner {
             Pixels::Quadrant => return mosaic(Mosaic::Quadrant),
             Pixels::Sextant => return mosaic(Mosaic::Sextant),
             Pixels::Octant => return mosaic(Mosaic::Octant),
-            Pixels::Kitty => Some(Protocol::Kitty),
+            Pixels::Kitty => placeholders.or(Some(Protocol::Kitty)),
             Pixels::Iterm => Some(Protocol::Iterm),
             Pixels::Sixel => Some(Protocol::Sixel),
-            Pixels::Auto => known.best().filter(|_| depth != ColourDepth::Mono),
+            Pixels::Auto => {
+                let best = placeholders.or_else(|| known.best());
+                best.filter(|_| depth != ColourDepth::Mono)
+            }
         };
-        let cell = cell.or(known.cell);
         let wrapped = protocol.and_then(|protocol| Some((protocol, known.wrapping(protocol)?)));
         match (wrapped, cell) {
             (None, _) | (Some((Protocol::Sixel, _)), None) => Self::Half,
@@ -199,6 +214,7 @@ mod tests {
     use super::*;
 
     const CELL: Option<(u16, u16)> = Some((10, 20));
+    const SCREEN: (u16, u16) = (100, 30);
 
     fn known(replies: &[Reply]) -> Known {
         let mut known = Known {
@@ -220,7 +236,13 @@ mod tests {
     }
 
     fn protocol(choice: Pixels, replies: &[Reply], cell: Option<(u16, u16)>) -> Option<Protocol> {
-        let manner = Manner::of(choice, ColourDepth::TrueColour, &known(replies), cell);
+        let manner = Manner::of(
+            choice,
+            ColourDepth::TrueColour,
+            &known(replies),
+            SCREEN,
+            cell,
+        );
         manner.means().map(|means| means.protocol)
     }
 
@@ -260,7 +282,7 @@ mod tests {
             (Pixels::Octant, &[], false),
         ] {
             let known = known(replies);
-            let manner = Manner::of(choice, ColourDepth::TrueColour, &known, None);
+            let manner = Manner::of(choice, ColourDepth::TrueColour, &known, SCREEN, None);
             let refusal = known.refusal(choice, manner);
             assert_eq!(refusal.is_some(), is_refused, "{choice:?}");
         }
@@ -286,10 +308,45 @@ mod tests {
     }
 
     #[test]
+    fn pictures_in_place_of_text_need_their_terminal_through_tmux_and_few_enough_cells() {
+        use ColourDepth::{Mono, Palette16, Palette256, TrueColour};
+        use Protocol::Kitty;
+        let client = |passes_through, placeholders| {
+            Reply::Tmux(Client {
+                passes_through,
+                placeholders,
+                ..Client::default()
+            })
+        };
+        let both = client(true, Some(3));
+        let named = Some(Protocol::Placeholders { pane: 3 });
+        for (choice, reply, depth, screen, cell, expected) in table! {
+            Pixels::Auto, both, TrueColour, SCREEN, CELL => named;
+            Pixels::Kitty, both, Palette256, (297, 30), CELL => named;
+            Pixels::Auto, both, Mono, SCREEN, CELL => None;
+            Pixels::Auto, both, Palette16, SCREEN, CELL => None;
+            Pixels::Auto, both, TrueColour, (298, 30), CELL => None;
+            Pixels::Auto, both, TrueColour, SCREEN, None => None;
+            Pixels::Kitty, both, TrueColour, (298, 30), CELL => Some(Kitty);
+            Pixels::Kitty, both, Mono, SCREEN, CELL => Some(Kitty);
+            Pixels::Auto, client(true, None), TrueColour, SCREEN, CELL => None;
+            Pixels::Kitty, client(true, None), TrueColour, SCREEN, CELL => Some(Kitty);
+            Pixels::Kitty, client(false, Some(3)), TrueColour, SCREEN, CELL => None;
+        } {
+            let manner = Manner::of(choice, depth, &known(&[reply]), screen, cell);
+            let protocol = manner.means().map(|means| means.protocol);
+            assert_eq!(
+                protocol, expected,
+                "{choice:?} {reply:?} {depth:?} {screen:?}"
+            );
+        }
+    }
+
+    #[test]
     fn without_colours_nothing_but_characters_is_drawn_unless_a_protocol_is_chosen() {
         let known = known(&[Reply::Shows(Protocol::Kitty), Reply::Attributes]);
         for choice in [Pixels::Auto, Pixels::Octant, Pixels::Half] {
-            let manner = Manner::of(choice, ColourDepth::Mono, &known, CELL);
+            let manner = Manner::of(choice, ColourDepth::Mono, &known, SCREEN, CELL);
             assert_eq!(manner, Manner::Half);
         }
     }

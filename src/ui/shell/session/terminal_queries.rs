@@ -68,7 +68,8 @@ impl Session {
             Pixels::Auto if !self.shows_pictures() => Pixels::Half,
             choice => choice,
         };
-        Manner::of(choice, self.depth, &self.known, cell)
+        let screen = self.app.shared.terminal;
+        Manner::of(choice, self.depth, &self.known, screen, cell)
     }
 
     /// Draws pixels with what the user wants and the terminal can show.

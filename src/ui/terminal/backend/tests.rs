@@ -10,6 +10,7 @@ use ratatui::style::Color;
 use ratatui::terminal::Terminal;
 
 use super::*;
+use crate::terminal::graphics::{Turn, name};
 
 const SIZE: Size = Size::new(12, 5);
 
@@ -290,6 +291,31 @@ fn wide_characters_and_their_replacements_stay_in_their_columns() {
         }
         assert_eq!(shown(0, 2), Some("|"));
     }
+}
+
+#[test]
+fn cells_that_name_a_picture_are_written_whole_and_the_last_column_wraps() {
+    let mut rig = Rig::new(ColourDepth::TrueColour, SIZE);
+    let mut buffer = blank(SIZE);
+    for column in 0..SIZE.width {
+        name(&mut buffer[(column, 2)], (0, Turn::First), (0, column));
+    }
+    let bytes = rig.draw(&buffer);
+    let text = str::from_utf8(&bytes).expect("cells are text");
+    for column in 0..SIZE.width {
+        let cell = rig.model.screen().cell(2, column).expect("a cell");
+        assert_eq!(cell.contents(), buffer[(column, 2)].symbol());
+        assert_eq!(cell.fgcolor(), vt100::Color::Idx(16));
+    }
+    let symbols = (0..SIZE.width).map(|column| buffer[(column, 2)].symbol());
+    let mut symbols: Vec<_> = symbols.collect();
+    let last = symbols.pop().expect("a last column");
+    let row = format!("{}\x1b[?7h{last}\x1b[?7l", symbols.concat());
+    assert!(text.contains(&row), "one after the other: {text:?}");
+    let mut backend = AnsiBackend::new(ColourDepth::TrueColour, SIZE);
+    backend.put(Position::ORIGIN, &buffer[(0, 2)]);
+    backend.precede(b"picture");
+    assert!(backend.out.starts_with(b"\x1b[?2026hpicture\x1b[1;1H"));
 }
 
 /// The colour of the pixel of a picture in a column and a row.

@@ -37,17 +37,23 @@ pub(in crate::terminal) fn answers(command: &[u8]) -> bool {
 /// Appends a PNG, to be shown over these cells, at the cursor, in place of the picture before. The
 /// cursor stays where it is, and the terminal does not answer.
 pub(super) fn encode(png: &[u8], place: Rect, wrapping: Wrapping, out: &mut Vec<u8>) {
-    let data = base64::encode(png);
     let (columns, rows) = (place.width, place.height);
-    let mut control = format!("a=T,f=100,i={ID},p=1,c={columns},r={rows},z={BELOW},C=1,q=2,");
+    let control = format!("a=T,f=100,i={ID},p=1,c={columns},r={rows},z={BELOW},C=1,q=2,");
+    send(png, control, |command| {
+        wrapping.append(place, out, |out| out.extend_from_slice(command));
+    });
+}
+
+/// Passes a PNG to `append` as commands, the first of which has this control data.
+pub(super) fn send(png: &[u8], mut control: String, mut append: impl FnMut(&[u8])) {
+    let data = base64::encode(png);
     let mut chunks = data.as_bytes().chunks(CHUNK).peekable();
     while let Some(chunk) = chunks.next() {
         let more = u8::from(chunks.peek().is_some());
-        wrapping.append(place, out, |out| {
-            out.extend_from_slice(format!("\x1b_G{control}m={more};").as_bytes());
-            out.extend_from_slice(chunk);
-            out.extend_from_slice(b"\x1b\\");
-        });
+        let mut command = format!("\x1b_G{control}m={more};").into_bytes();
+        command.extend_from_slice(chunk);
+        command.extend_from_slice(b"\x1b\\");
+        append(&command);
         control.clear();
         // Continued chunks ask for silence again, because some terminals answer to the last.
         control.push_str("q=2,");

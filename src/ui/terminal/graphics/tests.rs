@@ -1,5 +1,10 @@
 use std::io::Cursor;
 
+use ratatui::buffer::{Cell, CellWidth};
+use ratatui::style::Color;
+use unicode_width::UnicodeWidthChar;
+
+use super::placeholders::DIACRITICS;
 use super::*;
 use crate::layout::tests::size;
 use crate::terminal::base64;
@@ -19,11 +24,11 @@ fn decoded(png: &[u8]) -> Pixmap {
 const TMUX: Wrapping = Wrapping::Tmux { left: 2, top: 1 };
 
 /// Removes what tmux removes: the wrapping, and one of two escapes. Each sequence begins by moving
-/// the cursor to the cell.
-fn unwrapped(bytes: &[u8]) -> Vec<u8> {
+/// the cursor to the cell, if that is where the picture is put.
+fn unwrapped(bytes: &[u8], moving: &[u8]) -> Vec<u8> {
     let mut rest = bytes;
     let mut inner = Vec::new();
-    while let Some(body) = rest.strip_prefix(b"\x1bPtmux;\x1b\x1b[4;6H") {
+    while let Some(body) = rest.strip_prefix([b"\x1bPtmux;", moving].concat().as_slice()) {
         let mut at = 0;
         while body[at..at + 2] != *b"\x1b\\" {
             at += usize::from(body[at] == 0x1b);
@@ -166,11 +171,12 @@ fn sent(picture: &Pixmap, protocol: Protocol, cell: (u16, u16), wrapping: Wrappi
         cell,
     };
     let mut out = Vec::new();
-    let encoded = means.encode(picture, PLACE, &mut out);
+    let encoded = means.encode(picture, Turn::First, PLACE, &mut out);
     encoded.expect("there are pixels");
-    match wrapping {
-        Wrapping::Plain => out,
-        Wrapping::Tmux { .. } => unwrapped(&out),
+    match (protocol, wrapping) {
+        (Protocol::Placeholders { .. }, _) => unwrapped(&out, b""),
+        (_, Wrapping::Plain) => out,
+        (_, Wrapping::Tmux { .. }) => unwrapped(&out, b"\x1b\x1b[4;6H"),
     }
 }
 
@@ -197,6 +203,7 @@ fn kitty_and_iterm_get_the_picture_exactly() {
     let for_iterm = "inline=1; width=9; height=4; preserveAspectRatio=0";
     for (protocol, follow, parts) in [
         (Protocol::Kitty, commands as Follow, for_kitty),
+        (NAMED, commands, "a=T, f=100, U=1, c=9, r=4, p=1,"),
         (Protocol::Iterm, file, for_iterm),
     ] {
         for wrapping in [Wrapping::Plain, TMUX] {
@@ -217,6 +224,82 @@ fn a_picture_of_kitty_can_be_removed() {
         let id = control.split(',').find(|part| part.starts_with("i="));
         for removal in [REMOVE, REMOVE_THROUGH_TMUX] {
             assert!(removal.contains(id.expect("a number")), "{removal:?}");
+        }
+    }
+}
+
+/// Pictures in place of text, in a pane of tmux.
+const NAMED: Protocol = Protocol::Placeholders { pane: 3 };
+
+/// What a cell says of a picture, as kitty reads it: its number, and the row and column in it.
+fn named(cell: &Cell) -> (u32, [Option<u16>; 2]) {
+    let mut marks = cell.symbol().chars();
+    assert_eq!(marks.next(), Some(PLACEHOLDER));
+    let mut index = || {
+        let mark = u32::from(marks.next()?);
+        let index = DIACRITICS.iter().position(|&known| known == mark);
+        index.map(|index| index as u16)
+    };
+    let (row, column, top) = (index(), index(), index());
+    let Color::Indexed(colour) = cell.fg else {
+        panic!("{:?}", cell.fg);
+    };
+    let top = u32::from(top.expect("a third mark"));
+    (top << 24 | u32::from(colour), [row, column])
+}
+
+#[test]
+fn cells_name_their_parts_of_the_picture_that_is_sent_and_removed() {
+    for (pane, at) in [(0, (0, 0)), (3, (1, 2)), (119, (296, 0)), (1234, (0, 296))] {
+        let protocol = Protocol::Placeholders { pane };
+        let numbers = [Turn::First, Turn::Second].map(|turn| {
+            let mut cell = Cell::EMPTY;
+            name(&mut cell, (pane, turn), at);
+            assert_eq!(cell.cell_width(), 1);
+            let (number, place) = named(&cell);
+            let (row, column) = at;
+            assert_eq!(place, [Some(row), Some(column)]);
+            number
+        });
+        assert_ne!(numbers[0], numbers[1]);
+        let (control, _) = commands(&sent(&picture(), protocol, (10, 16), TMUX));
+        assert!(control.contains(&format!(",i={},", numbers[0])));
+        let means = Means {
+            protocol,
+            wrapping: TMUX,
+            cell: (10, 16),
+        };
+        let removal = unwrapped(&means.ending().as_bytes()[2..], b"\x1b\x1b\\");
+        let removal = String::from_utf8(removal).expect("ASCII");
+        let wanted = numbers.map(|number| format!("\x1b_Ga=d,d=I,i={number},q=2\x1b\\"));
+        assert_eq!(removal, wanted.concat());
+    }
+}
+
+/// kitty's list has 297 characters from U+0305 to U+1D244, in the order of their code points.
+#[test]
+fn the_marks_are_those_of_the_protocol() {
+    assert_eq!(DIACRITICS[..6], [0x305, 0x30d, 0x30e, 0x310, 0x312, 0x33d]);
+    assert_eq!(DIACRITICS[294..], [0x1d242, 0x1d243, 0x1d244]);
+    assert!(DIACRITICS.is_sorted_by(|one, next| one < next));
+    let marks = DIACRITICS.map(|mark| char::from_u32(mark).expect("a character"));
+    assert!(marks.iter().all(|mark| mark.width() == Some(0)));
+}
+
+#[test]
+fn a_picture_in_place_of_text_gets_the_shape_of_its_cells() {
+    // 90×64 pixels in nine columns and four rows.
+    for (cell, expected) in [
+        ((10, 16), (90, 64)),
+        ((5, 8), (90, 64)),
+        ((9, 19), (90, 84)),
+    ] {
+        let (_, shown) = commands(&sent(&picture(), NAMED, cell, TMUX));
+        assert_eq!((shown.size.width, shown.size.height), expected, "{cell:?}");
+        let source = |x: u32, y: u32| (y * 64 / expected.1 * 90 + x) as usize;
+        for (x, y) in [(0, 0), (89, expected.1 - 1), (17, 40)] {
+            let at = (y * expected.0 + x) as usize;
+            assert_eq!(shown.pixels[at], picture().pixels[source(x, y)]);
         }
     }
 }
@@ -263,7 +346,7 @@ fn sixels_fill_their_cells() {
 #[test]
 fn equal_pictures_give_equal_bytes() {
     let picture = picture();
-    for protocol in [Protocol::Kitty, Protocol::Iterm, Protocol::Sixel] {
+    for protocol in [Protocol::Kitty, NAMED, Protocol::Iterm, Protocol::Sixel] {
         let send = || sent(&picture, protocol, (10, 16), Wrapping::Plain);
         assert_eq!(send(), send(), "{protocol:?}");
     }

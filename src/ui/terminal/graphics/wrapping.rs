@@ -36,13 +36,18 @@ impl Wrapping {
         let (row, column) = (top + place.y + 1, left + place.x + 1);
         let mut inner = format!("\x1b[{row};{column}H").into_bytes();
         sequence(&mut inner);
-        out.extend_from_slice(b"\x1bPtmux;");
-        for byte in inner {
-            if byte == 0x1b {
-                out.push(byte);
-            }
+        wrap(&inner, out);
+    }
+}
+
+/// Appends bytes, wrapped for tmux.
+pub(super) fn wrap(inner: &[u8], out: &mut Vec<u8>) {
+    out.extend_from_slice(b"\x1bPtmux;");
+    for &byte in inner {
+        if byte == 0x1b {
             out.push(byte);
         }
-        out.extend_from_slice(END.as_bytes());
+        out.push(byte);
     }
+    out.extend_from_slice(END.as_bytes());
 }
