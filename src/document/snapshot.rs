@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::changes::{Change, LIMITS, Limits, changes};
-use super::{Document, Merge};
+use super::{Conflict, Document, Merge, Side};
 use language::{Language, Lowered, Source};
 use memory::OutOfMemory;
 use scene::Meshes;
@@ -46,6 +46,36 @@ impl Snapshot {
     /// The text being edited.
     pub fn text(&self) -> &Arc<String> {
         self.edited.as_ref().unwrap_or(&self.saved)
+    }
+
+    /// The snapshot as if another text had been saved last.
+    #[must_use]
+    pub fn with_saved(&self, saved: Arc<String>) -> Self {
+        let edited = Some(self.text()).filter(|text| **text != saved);
+        Self {
+            language: self.language,
+            edited: edited.cloned(),
+            saved,
+        }
+    }
+
+    /// Whether a text from outside has the edits that lead from the saved text to `edited`; in their places
+    /// it may have something that `is_same` accepts.
+    pub fn has_edits(
+        &self,
+        edited: &Arc<String>,
+        outside: &Arc<String>,
+        is_same: impl Fn(&Conflict) -> bool,
+    ) -> bool {
+        if edited == outside {
+            return true;
+        }
+        let mut merge = Merge::new(self.language, &self.saved, edited, outside);
+        let are_same = merge.conflicts.iter().all(is_same);
+        for conflict in &mut merge.conflicts {
+            conflict.decision = Some(Side::Theirs);
+        }
+        are_same && merge.text() == **outside
     }
 
     /// Merges a text from outside with the unsaved edits, and lowers the result. The inner error is

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use assets::{MeshScene, is_mesh};
-use document::{Difference, Document, Merge, Merged, Numbers, Snapshot};
+use document::{Conflict, Difference, Document, Merge, Merged, Numbers, Snapshot};
 use file::FileId;
 use language::{Language, Lowered, UnknownLanguage};
 use memory::OutOfMemory;
@@ -22,6 +22,28 @@ pub struct Baseline {
     pub meshes: Meshes,
     /// Whether the text under edit has no errors, so that numbers can be lowered alone.
     pub is_sound: bool,
+    /// A text with edits that an editor may have made in its buffer.
+    pub sent: Option<SentText>,
+}
+
+/// A text with edits that were sent to an editor.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SentText {
+    /// The text with them.
+    pub text: Arc<String>,
+    /// Whether the editor says that it has made them: perhaps in its own way, such as in another format.
+    pub is_made: bool,
+}
+
+impl SentText {
+    /// Whether a conflict of these edits with the buffer is one with themselves.
+    fn is_same(&self, conflict: &Conflict) -> bool {
+        let Conflict {
+            base, mine, theirs, ..
+        } = conflict;
+        let is_replaced = !base.is_empty() && !theirs.contains(base);
+        self.is_made && (theirs.contains(mine) || is_replaced)
+    }
 }
 
 /// The contents of a file.
@@ -35,6 +57,9 @@ pub struct Reading {
     pub place: Option<SceneFolder>,
     /// What the text is of, if it is of an editor's buffer instead of the file.
     pub buffer: Option<ReadBuffer>,
+    /// Whether it has the edits that the baseline says were sent: then it was compared as if the text with
+    /// these had been saved last.
+    pub has_sent: bool,
 }
 
 /// An editor's buffer that was read instead of the file.
@@ -125,16 +150,33 @@ impl Reading {
         buffer: Option<ReadBuffer>,
         baseline: Baseline,
     ) -> Result<Self, OutOfMemory> {
-        let news = if *baseline.scene.saved == text {
+        let text = Arc::new(text);
+        let has_sent = |sent: &&SentText| {
+            let is_same = |conflict: &Conflict| sent.is_same(conflict);
+            baseline.scene.has_edits(&sent.text, &text, is_same)
+        };
+        let sent = baseline.sent.as_ref().filter(|_| buffer.is_some());
+        let sent = sent.filter(has_sent).map(|sent| Arc::clone(&sent.text));
+        let has_sent = sent.is_some();
+        let compared = match sent {
+            None => baseline.clone(),
+            Some(sent) => Baseline {
+                scene: baseline.scene.with_saved(sent),
+                ..baseline.clone()
+            },
+        };
+        let news = if compared.scene.saved == text {
             None
         } else {
-            Some(Box::new(News::of(text, buffer.is_some(), &baseline)?))
+            let text = Arc::unwrap_or_clone(text);
+            Some(Box::new(News::of(text, buffer.is_some(), &compared)?))
         };
         Ok(Self {
             baseline,
             news,
             place: None,
             buffer,
+            has_sent,
         })
     }
 }

@@ -12,7 +12,7 @@ const EDITORS: usize = 8;
 
 /// The connections of editors that have the scene open.
 #[derive(Debug)]
-pub(super) struct Buffers {
+pub(crate) struct Buffers {
     follow: Follow,
     /// The socket; dropping it ends it.
     listening: Option<Listening>,
@@ -33,16 +33,16 @@ struct Owner {
 
 /// The outside text.
 #[derive(Clone, Debug)]
-pub(super) struct Outside {
-    pub(super) text: String,
-    pub(super) version: u64,
+pub(crate) struct Outside {
+    pub(crate) text: String,
+    pub(crate) version: u64,
     /// Whether the editor is gone.
-    pub(super) is_left: bool,
+    pub(crate) is_left: bool,
 }
 
 impl Buffers {
     /// No buffers yet.
-    pub(super) fn new(follow: Follow) -> Self {
+    pub(crate) fn new(follow: Follow) -> Self {
         Self {
             follow,
             listening: None,
@@ -72,7 +72,7 @@ impl Buffers {
     }
 
     /// The outside text, if an editor's buffer is followed.
-    pub(super) fn outside(&self) -> Option<Outside> {
+    pub(crate) fn outside(&self) -> Option<Outside> {
         let owner = self.owner.as_ref().filter(|owner| self.follows(owner))?;
         Some(Outside {
             text: owner.buffer.text.clone(),
@@ -89,7 +89,7 @@ impl Buffers {
     }
 
     /// Forgets a buffer whose editor is gone.
-    pub(super) fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         self.owner.take_if(|owner| owner.connection.is_none());
     }
 
@@ -118,7 +118,7 @@ impl Buffers {
         }
     }
 
-    fn said(&mut self, connection: u64, message: ToInterface) -> Vec<Msg> {
+    pub(crate) fn said(&mut self, connection: u64, message: ToInterface) -> Vec<Msg> {
         let other = self.owner.as_ref();
         let other = other.filter(|owner| owner.connection.is_some_and(|owner| owner != connection));
         if let Some(owner) = other {
@@ -186,7 +186,7 @@ impl Buffers {
     }
 
     /// Takes the end of a connection. A buffer that was not closed remains until it is forgotten.
-    fn left(&mut self, connection: u64) -> Vec<Msg> {
+    pub(crate) fn left(&mut self, connection: u64) -> Vec<Msg> {
         let is_followed = self.outside().is_some();
         let is_owner = |owner: &mut Owner| owner.connection == Some(connection);
         let Some(mut owner) = self.owner.take_if(is_owner) else {

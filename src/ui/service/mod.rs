@@ -3,7 +3,7 @@
 
 mod answering;
 mod assets;
-mod buffers;
+pub(crate) mod buffers;
 mod comparing;
 mod deriving;
 pub mod destination;

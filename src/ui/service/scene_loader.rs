@@ -296,6 +296,7 @@ fn nothing(language: Language) -> Baseline {
         saves: 0,
         meshes: Meshes::default(),
         is_sound: false,
+        sent: None,
     }
 }
 

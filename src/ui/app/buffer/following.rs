@@ -4,6 +4,7 @@ use super::pushing::{answered, is_trying};
 use crate::app::shared::buffer::Buffer;
 use crate::app::{Shared, files};
 use crate::msg::{BufferNews, Effect};
+use link::Abilities;
 use text::Span;
 
 /// Takes what was heard.
@@ -29,7 +30,12 @@ pub(crate) fn heard(shared: &mut Shared, news: BufferNews) -> Vec<Effect> {
                 shared.say(format!("{editor} closed {name}"));
             }
         }
-        BufferNews::Left => return files::read_finally(shared),
+        BufferNews::Left => {
+            if let Some(buffer) = &mut shared.buffer {
+                buffer.can = Abilities::default();
+            }
+            return files::read_finally(shared);
+        }
         BufferNews::Cursor { at, version } => go_to(shared, at, version),
         BufferNews::Answered {
             base,

@@ -60,7 +60,10 @@ pub(crate) fn push(shared: &mut Shared) -> Vec<Effect> {
     };
     if buffer.sent.take().is_some() {
         buffer.failures += 1;
-        return try_again(shared);
+        let mut effects = try_again(shared);
+        // What was read meanwhile had to wait for the answer.
+        effects.extend(files::read_finally(shared));
+        return effects;
     }
     let (true, Some(base)) = (is_ready, buffer.version) else {
         return Vec::new();

@@ -63,6 +63,10 @@ pub(crate) fn adopt(shared: &mut Shared) -> Vec<Effect> {
                 lowered,
                 Some(&reading::ADOPTED),
             );
+            if shared.buffer.is_some() {
+                // It may have changed since, or its editor may be gone.
+                return reading::read_finally(shared);
+            }
         }
         Adopted::OutOfDate => shared.warn("the file was saved meanwhile: nothing was merged"),
     }

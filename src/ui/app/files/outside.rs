@@ -1,9 +1,11 @@
 //! The text of an editor's buffer taken instead of the file's, and places shown in that editor.
 
+use std::sync::Arc;
+
 use crate::app::Shared;
 use crate::app::shared::buffer::Sent;
 use crate::msg::Effect;
-use crate::scene_reading::ReadBuffer;
+use crate::scene_reading::{ReadBuffer, Reading, SentText};
 use link::ToEditor;
 use text::Span;
 
@@ -38,25 +40,38 @@ pub(super) fn took(shared: &mut Shared, read: Option<ReadBuffer>) -> Vec<Effect>
     vec![Effect::ForgetBuffer]
 }
 
-/// What to do about a conflict with edits that were sent to the editor.
-pub(super) enum Sending {
-    /// The editor has not answered yet; its answer is followed by another reading.
-    Unanswered,
-    /// It has made them in its own way, such as in another format: what it made of them is the text, and
-    /// is to be read again.
-    Made,
+/// The text with the edits that the editor may have made.
+pub(super) fn sent(shared: &Shared) -> Option<SentText> {
+    let sent = shared.buffer.as_ref()?.sent.as_ref()?;
+    Some(SentText {
+        text: Arc::clone(&sent.text),
+        is_made: sent.is_made,
+    })
 }
 
-/// Whether a conflict with the buffer may be one with edits that were sent there.
-pub(super) fn conflicts_with_sent(shared: &mut Shared) -> Option<Sending> {
-    let buffer = shared.buffer.as_mut()?;
-    let sent = buffer.sent.take_if(|sent| sent.is_made);
-    let Some(sent) = sent else {
-        return buffer.sent.as_ref().map(|_| Sending::Unanswered);
+/// Whether a newer text may have edits that the editor has not answered for yet.
+pub(super) fn awaits_answer(shared: &Shared, reading: &Reading) -> bool {
+    let sent = shared
+        .buffer
+        .as_ref()
+        .and_then(|buffer| buffer.sent.as_ref());
+    // An editor that is gone gives none.
+    let read = reading
+        .buffer
+        .as_ref()
+        .filter(|read| read.in_file.is_none());
+    let (Some(sent), Some(read)) = (sent, read) else {
+        return false;
     };
-    buffer.version = None;
-    shared.document.mark_saved(sent.text);
-    Some(Sending::Made)
+    !sent.is_made && sent.base < read.version
+}
+
+/// Takes edits that were sent for saved: the editor has them.
+pub(super) fn take_sent(shared: &mut Shared) {
+    let sent = shared.buffer.as_mut().and_then(|buffer| buffer.sent.take());
+    if let Some(sent) = sent {
+        shared.document.mark_saved(sent.text);
+    }
 }
 
 /// Brings the editor's cursor to a span of the text, and the focus if asked for.

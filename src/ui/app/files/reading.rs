@@ -11,7 +11,7 @@ use document::{Difference, Numbers, Past, StepName};
 use file::ReadError;
 use language::Lowered;
 
-use super::outside::{self, Sending};
+use super::outside;
 use crate::app::shared::cursor::SavedCursor;
 use crate::app::shared::disk::{Faulty, Requester, Settle};
 use crate::app::shared::messages::About;
@@ -137,6 +137,7 @@ pub(crate) fn baseline(shared: &Shared) -> Baseline {
         saves: shared.jobs.count_saves(),
         meshes: shared.assets.loaded.meshes.clone(),
         is_sound: shared.sound_scene().is_some(),
+        sent: outside::sent(shared),
     }
 }
 
@@ -150,6 +151,13 @@ pub(super) fn is_being_saved(shared: &Shared) -> bool {
 /// Takes a reading; one that was compared with another state is repeated.
 pub(crate) fn was_read(shared: &mut Shared, read: Result<Reading, ReadError>) -> Vec<Effect> {
     if is_being_saved(shared) {
+        return vec![Effect::Free(Arc::new(read))];
+    }
+    if let Ok(reading) = &read
+        && outside::awaits_answer(shared, reading)
+    {
+        // The answer is followed by another reading.
+        shared.awaits_reading = false;
         return vec![Effect::Free(Arc::new(read))];
     }
     if let Ok(reading) = &read
@@ -170,7 +178,7 @@ pub(crate) fn was_read(shared: &mut Shared, read: Result<Reading, ReadError>) ->
 /// after the last edit.
 fn is_known(shared: &Shared, reading: &Reading) -> bool {
     let baseline = &reading.baseline;
-    if baseline.saves != shared.jobs.count_saves() {
+    if baseline.saves != shared.jobs.count_saves() || baseline.sent != outside::sent(shared) {
         return false;
     }
     if reading.news.is_none() {
@@ -249,6 +257,9 @@ fn take_reading(shared: &mut Shared, mut reading: Reading, settle: Settle) -> Ve
 
 fn take_text(shared: &mut Shared, reading: Reading, settle: Settle) -> Vec<Effect> {
     let requester = std::mem::take(&mut shared.disk.requester);
+    if reading.has_sent {
+        outside::take_sent(shared);
+    }
     let Reading { news, buffer, .. } = reading;
     let is_buffer = buffer.is_some();
     // An undecided merge is obsolete, regardless of what the file holds now.
@@ -304,13 +315,6 @@ fn take_text(shared: &mut Shared, reading: Reading, settle: Settle) -> Vec<Effec
             (text::take_merged(shared, merged, past), meaning, words)
         }
         News::Conflict(merge) => {
-            if is_buffer && let Some(sending) = outside::conflicts_with_sent(shared) {
-                shared.disk.state = state;
-                return match sending {
-                    Sending::Unanswered => Vec::new(),
-                    Sending::Made => read_finally(shared),
-                };
-            }
             offer(shared, buffer.as_ref());
             shared.disk.state = OnDisk::Changed;
             shared.overlays.ask_conflict(merge, MergeSource::File);

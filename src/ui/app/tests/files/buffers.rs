@@ -48,7 +48,6 @@ scripts! {
         @elapsed push
         l                   | not does wait push 100
         @answered 0 made 0
-        @typed 1 0 0 0 => 0.1 0 0 | does read scene.ray | text 0 0 0 => 0.2 0 0
         @typed 1 0 0 0 => 0.1 0 0 | dirty | does wait push 100 | text 0 0 0 => 0.2 0 0
         @elapsed push       | does first edit version 1: 50..51→2, wait push 3000
     ");
@@ -58,7 +57,6 @@ scripts! {
         jjjel
         @elapsed push
         @answered 0 made 0
-        @typed 1 0 0 0 => 0.10 0 0 | does read scene.ray | not asks
         @typed 1 0 0 0 => 0.10 0 0 | text file | not dirty | not asks
 
         // The answer may come later than the text.
@@ -66,8 +64,15 @@ scripts! {
         @elapsed push
         @typed 1 0 0 0 => 0.10 0 0 | not asks | dirty
         @answered 0 made 1         | does read scene.ray
-        @typed 1 0 0 0 => 0.10 0 0 | does read scene.ray
         @typed 1 0 0 0 => 0.10 0 0 | text file | not dirty | not asks
+
+        // What was undone meanwhile is undone there too.
+        jjjel
+        @elapsed push
+        u                         | not dirty
+        @typed 1 0 0 0 => 0.1 0 0 | text opened
+        @answered 0 made 1
+        @typed 1 0 0 0 => 0.1 0 0 | text opened | dirty | does wait push 100
     ");
 
     /// What was typed meanwhile is no reason to take edits back.

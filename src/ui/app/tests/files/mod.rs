@@ -8,5 +8,6 @@ mod recovering;
 mod reloading;
 mod saving;
 mod starting;
+mod two_sides;
 
 use super::*;

@@ -98,6 +98,7 @@ impl Session {
             saves: 0,
             meshes: Meshes::default(),
             is_sound: false,
+            sent: None,
         };
         let reading = Reading::new(self.text_of(rest)?, nothing);
         Ok(Opened::Read(reading.expect("it fits into memory")))
