@@ -213,6 +213,18 @@ impl Folder {
     pub fn place(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }
+
+    /// A path of a file with this name that is short enough for a socket, where there can be one; it holds
+    /// only while the folder is open.
+    pub fn short_place(&self, name: &str) -> PathBuf {
+        /// What addresses of sockets hold, in bytes, on macOS a few less than elsewhere.
+        const LONGEST: usize = 100;
+        let place = self.place(name);
+        if cfg!(target_os = "linux") && LONGEST < place.as_os_str().len() {
+            return self.held.number().join(name);
+        }
+        place
+    }
 }
 
 #[cfg(test)]

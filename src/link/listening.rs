@@ -72,7 +72,7 @@ pub(crate) fn listen_at(
     // connected to.
     let new = format!("{}.new", place.name);
     place.folder.remove(&new)?;
-    let listener = UnixListener::bind(place.folder.place(&new))?;
+    let listener = UnixListener::bind(place.folder.short_place(&new))?;
     place.folder.rename(&new, &place.name)?;
     let (end, woken) = UnixStream::pair()?;
     let listening = Listening {

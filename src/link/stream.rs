@@ -34,7 +34,7 @@ pub fn connect(scene: &Path) -> io::Result<(Sender, Receiver)> {
 }
 
 pub(crate) fn connect_to(place: &Place) -> io::Result<(Sender, Receiver)> {
-    ends(UnixStream::connect(place.path())?)
+    ends(UnixStream::connect(place.folder.short_place(&place.name))?)
 }
 
 /// Whether something listens on a socket.

@@ -183,13 +183,15 @@ fn folders_that_others_can_write_to_are_refused() {
     refused("halflight");
 }
 
+/// Linux has a short path of a folder that is open.
 #[test]
-fn a_path_that_is_too_long_is_said() {
+#[cfg(target_os = "linux")]
+fn a_folder_may_have_a_long_path() {
     let desk = Desk::new();
     let deep = desk.folder.path().join("x".repeat(120));
-    let place = Place::within(&deep, &desk.scene).expect("a place");
-    let error = listen_at(place, drop).map(|_| ()).expect_err("too long");
-    assert!(error.to_string().contains("shorter"), "{error}");
+    let place = || Place::within(&deep, &desk.scene).expect("a place");
+    let _listening = listen_at(place(), drop).expect("a short path");
+    connect_to(&place()).expect("it listens");
 }
 
 #[test]

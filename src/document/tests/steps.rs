@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
-use super::{check_tree, document, replace, set};
-use crate::{Document, StateId, StepName};
+use super::{check_tree, document, future, history, replace, save, set};
+use crate::{Document, Past, StateId, StepName};
+use scene::Meshes;
 use text::{Edit, Span};
 
 /// Sets the leaf at an index and names that after it.
@@ -136,8 +137,65 @@ fn act(document: &mut Document, doing: &Doing) {
     }
 }
 
+/// Steps outlast what others change elsewhere; the first whose place they touched ends them.
+#[test]
+fn steps_are_carried_over_changes_of_others() {
+    let mut doc = document("0 1 2 3 4");
+    for (leaf, literal) in [(1, "10"), (2, "20"), (3, "30")] {
+        name(&mut doc, leaf, literal);
+        doc.end_step();
+    }
+    doc.undo();
+    save(&mut doc, "0 10 20 3 4");
+    drop(doc.load(document("// a\n0 10 20 3 4"), Past::Rebased));
+    drop(doc.load(document("// a\n0 10 20 3 44"), Past::Rebased));
+    let undone = [
+        "// a\n0 10 20 3 44",
+        "// a\n0 10 2 3 44",
+        "// a\n0 1 2 3 44",
+    ];
+    assert_eq!(history(&doc), undone);
+    let redone = ["// a\n0 10 20 3 44", "// a\n0 10 20 30 44"];
+    assert_eq!(future(&doc), redone);
+    name(&mut doc, 5, "40");
+    let theirs = document("// a\n0 17 20 3 44");
+    let merged = doc.snapshot().merge(theirs, &Meshes::default());
+    let (merged, _) = merged.expect("there is memory").expect("no conflict");
+    drop(doc.follow(merged));
+    let undone = [
+        "// a\n0 17 20 3 40",
+        "// a\n0 17 20 3 44",
+        "// a\n0 17 2 3 44",
+    ];
+    assert_eq!(history(&doc), undone);
+    drop(doc.load(document("5"), Past::Rebased));
+    assert_eq!((history(&doc).len(), future(&doc).len()), (1, 1));
+}
+
 proptest! {
     #![proptest_config(repeatable::config())]
+
+    /// A comment of others is in all texts of the history, which are otherwise as before.
+    #[test]
+    fn carried_steps_lead_to_the_same_texts(doings in doings(), place in any::<Index>()) {
+        const COMMENT: &str = "/*!*/";
+        let mut doc = document("1 2 3\n4 5\n6");
+        for doing in doings {
+            act(&mut doc, &doing);
+        }
+        let before = [history(&doc), future(&doc)];
+        doc.mark_saved(doc.shared_text());
+        let gaps: Vec<_> = doc.text().match_indices([' ', '\n']).map(|(at, _)| at + 1).collect();
+        let mut text = doc.text().to_owned();
+        text.insert_str(gaps[place.index(gaps.len())], COMMENT);
+        drop(doc.load(document(&text), Past::Rebased));
+        for (before, after) in before.iter().zip([history(&doc), future(&doc)]) {
+            prop_assert!(after.len() <= before.len());
+            for (before, after) in before.iter().zip(&after) {
+                prop_assert_eq!(before, &after.replacen(COMMENT, "", 1));
+            }
+        }
+    }
 
     #[test]
     fn every_state_keeps_its_text(doings in doings()) {

@@ -2,9 +2,9 @@
 
 use std::fs::{File, Metadata};
 use std::io;
-use std::os::fd::{AsFd, OwnedFd};
+use std::os::fd::{AsFd, AsRawFd, OwnedFd};
 use std::os::unix::fs::MetadataExt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use rustix::fs::{
     AtFlags, CWD, FileType, Mode, OFlags, RawMode, Stat, fstat, fsync, mkdirat, openat, renameat,
@@ -55,6 +55,11 @@ impl FolderHandle {
         let held = fstat(&self.0)?;
         let found = statat(CWD, path, AtFlags::SYMLINK_NOFOLLOW)?;
         Ok(is_same(&held, &found) && check(&held, path).is_ok())
+    }
+
+    /// The folder among the files that this process has open, as Linux names them.
+    pub(super) fn number(&self) -> PathBuf {
+        format!("/proc/self/fd/{}", self.0.as_raw_fd()).into()
     }
 
     pub(super) fn has(&self, name: &str, file: &File) -> io::Result<bool> {

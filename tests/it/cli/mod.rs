@@ -87,6 +87,7 @@ impl Place {
             .current_dir(self.directory.path())
             // Renders may continue what the interface keeps there.
             .env("XDG_STATE_HOME", self.at("state"))
+            .env_remove("XDG_RUNTIME_DIR")
             .stdin(Stdio::null());
         command
     }
