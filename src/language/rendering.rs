@@ -227,7 +227,9 @@ fn misspelt(text: &str, first: Span, second: Option<Span>) -> Option<Diagnostic>
     }
     let message = format!("render: {} is no key: the comment is ignored", quoted(word));
     let warning = Diagnostic::warning(first, message, listed());
-    Some(warning.with_hint(format!("did you mean `{meant} VALUE`?")))
+    let right = format!("{meant} {value}");
+    let warning = warning.with_hint(format!("did you mean `{meant} VALUE`?"));
+    Some(warning.with_fix(first, right.trim_end()))
 }
 
 fn keys() -> impl Iterator<Item = &'static str> {
@@ -244,8 +246,13 @@ fn index_of(key: &str) -> Option<usize> {
 
 fn unknown_key(span: Span, key: &str) -> Diagnostic {
     let message = format!("render: unknown key {}", quoted(key));
-    let diagnostic = Diagnostic::warning(span, message, listed());
-    did_you_mean(diagnostic, nearest_word(key, keys()), Some(SKIPPED))
+    // Its value needs no correction.
+    let own = Span::new(span.start(), span.start() + key.len());
+    let diagnostic = Diagnostic::warning(own, message, listed());
+    Diagnostic {
+        span,
+        ..did_you_mean(diagnostic, nearest_word(key, keys()), Some(SKIPPED))
+    }
 }
 
 /// The value of a setting: a number, or the index of a word; an error is a warning for the text.

@@ -41,6 +41,7 @@ pub(super) fn number(
         let expected = format!("a number without it: {}", quoted(plain).trim_matches('`'));
         Diagnostic::warning(span, message, expected)
             .with_hint("other readers of the format may refuse it")
+            .with_fix(span, plain)
     });
     Ok(value)
 }
@@ -111,11 +112,13 @@ pub(super) fn out_of_range(field: &Field, span: Span, value: f64, what: &str) ->
         return Diagnostic::error(span, message, field.allowed.words_against(value));
     }
     let message = format!("{what}: {} is not {}", concise(value), field.usual.limits());
-    let hint = match field.reads_as {
-        Some(value) => format!("it is read as {value}"),
-        None => "it is used as given".to_owned(),
-    };
-    Diagnostic::warning(span, message, field.usual.words()).with_hint(hint)
+    let warning = Diagnostic::warning(span, message, field.usual.words());
+    match field.reads_as {
+        Some(value) => warning
+            .with_hint(format!("it is read as {value}"))
+            .with_fix(span, value.to_string()),
+        None => warning.with_hint("it is used as given"),
+    }
 }
 
 /// The diagnostic for a token where a number is expected. `what` names the field.
@@ -132,24 +135,27 @@ pub(super) fn no_number(
         NumberError::NotANumber => format!("{what}: {shown} is not a number"),
         NumberError::Overflow => format!("{what}: {shown} is too large for any number"),
     };
-    Diagnostic {
+    let found = Diagnostic {
         severity,
         hint: number_hint(token, error),
         ..Diagnostic::error(span, message, expected)
+    };
+    match corrected(token) {
+        Some((_, number)) => found.with_fix(span, number),
+        None => found,
     }
 }
 
-/// A hint at what was probably meant by a token that is not a number.
-fn number_hint(token: &str, error: NumberError) -> Option<String> {
-    const LONGEST: usize = 64;
+/// The longest token that is looked at for what was meant, in bytes.
+const LONGEST: usize = 64;
+
+/// The number that was probably meant by a token that is none, and why it is not, as a sentence.
+fn corrected(token: &str) -> Option<(&'static str, String)> {
     if LONGEST < token.len() {
         return None;
     }
-    if error == NumberError::Overflow {
-        return Some("numbers go up to about 1.8e308".to_owned());
-    }
     if let Some(plain) = without_suffix(token) {
-        return Some(format!("write {plain}"));
+        return Some(("", plain.to_owned()));
     }
     let reads = |text: &str| parse_number(text).is_ok();
     let unsigned = token.trim_start_matches(['+', '-']);
@@ -160,36 +166,53 @@ fn number_hint(token: &str, error: NumberError) -> Option<String> {
         && let Ok(value) = u64::from_str_radix(digits, 16)
     {
         let sign = if token.starts_with('-') { "-" } else { "" };
-        return Some(format!("numbers are decimal: write {sign}{value}"));
+        return Some(("numbers are decimal: ", format!("{sign}{value}")));
     }
-    if token.matches(',').count() == 1 && reads(&token.replace(',', ".")) && !token.ends_with(',') {
-        let pointed = token.replace(',', ".");
-        return Some(format!("the decimal separator is a point: write {pointed}"));
+    let pointed = token.replace(',', ".");
+    if token.matches(',').count() == 1 && reads(&pointed) && !token.ends_with(',') {
+        return Some(("the decimal separator is a point: ", pointed));
     }
+    let plain = token.replace(['−', '–', '—'], "-");
+    (plain != token && reads(&plain)).then_some(("the minus sign is `-`: ", plain))
+}
+
+/// A hint at what was probably meant by a token that is not a number.
+fn number_hint(token: &str, error: NumberError) -> Option<String> {
+    if LONGEST < token.len() {
+        return None;
+    }
+    if error == NumberError::Overflow {
+        return Some("numbers go up to about 1.8e308".to_owned());
+    }
+    if let Some((why, number)) = corrected(token) {
+        return Some(format!("{why}write {number}"));
+    }
+    let reads = |text: &str| parse_number(text).is_ok();
     if token.contains(',') && token.split(',').all(|part| part.is_empty() || reads(part)) {
         return Some("numbers are separated by white space, without commas".to_owned());
     }
-    let plain = token.replace(['−', '–', '—'], "-");
-    if plain != token && reads(&plain) {
-        return Some(format!("the minus sign is `-`: write {plain}"));
-    }
-    let word = unsigned.to_ascii_lowercase();
+    let word = token.trim_start_matches(['+', '-']).to_ascii_lowercase();
     if matches!(word.as_str(), "nan" | "inf" | "infinity") {
         return Some("numbers are finite".to_owned());
     }
     None
 }
 
-/// Adds a question after the word that was probably meant; `otherwise` if none is known.
+/// Adds a question after the word that was probably meant in its place; `otherwise` if none is known.
 pub(super) fn did_you_mean(
     diagnostic: Diagnostic,
     meant: Option<&str>,
     otherwise: Option<&str>,
 ) -> Diagnostic {
-    let question = meant.map(|word| format!("did you mean `{word}`?"));
-    Diagnostic {
-        hint: question.or_else(|| otherwise.map(str::to_owned)),
-        ..diagnostic
+    let span = diagnostic.span;
+    match meant {
+        Some(word) => diagnostic
+            .with_hint(format!("did you mean `{word}`?"))
+            .with_fix(span, word),
+        None => Diagnostic {
+            hint: otherwise.map(str::to_owned),
+            ..diagnostic
+        },
     }
 }
 

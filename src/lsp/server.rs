@@ -12,7 +12,9 @@ use link::{ToEditor, ToInterface};
 use serde_json::{Value, json};
 use text::{Findings, Span};
 
-use crate::answers::{colours, completion, diagnostics, hints, hover, names, outline, tokens};
+use crate::answers::{
+    actions, colours, completion, diagnostics, hints, hover, names, outline, tokens,
+};
 use crate::document::{Document, LONGEST};
 use crate::linked::{self, Links};
 use crate::positions::Encoding;
@@ -416,6 +418,9 @@ impl<W: Write> Server<W> {
                 renamed.map_err(|reason| Refusal(REQUEST_FAILED, reason))
             }),
             "textDocument/completion" => at(&|document, at| Ok(completion::at(document, at))),
+            "textDocument/codeAction" => {
+                within(&|document, range| actions::within(document, range, &parameters["context"]))
+            }
             "textDocument/documentSymbol" => all(outline::symbols),
             "textDocument/foldingRange" => all(outline::folds),
             "textDocument/documentColor" => all(colours::all),
@@ -460,6 +465,7 @@ fn capabilities(encoding: Encoding) -> Value {
             "documentHighlightProvider": true,
             "renameProvider": { "prepareProvider": true },
             "completionProvider": { "triggerCharacters": [" ", "\""] },
+            "codeActionProvider": { "codeActionKinds": [actions::KIND] },
             "documentSymbolProvider": true,
             "foldingRangeProvider": true,
             "inlayHintProvider": true,

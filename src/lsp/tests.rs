@@ -1,5 +1,7 @@
 //! Sessions of a scripted client.
 
+mod actions;
+
 use std::io::{Cursor, Write};
 use std::sync::{Arc, Mutex};
 

@@ -100,6 +100,7 @@ impl<'a> Reader<'a> {
                 let message = format!("{} should be in lower case", quoted(word));
                 Diagnostic::warning(token, message, format!("`{}`", kind.keyword()))
                     .with_hint("other readers of the format may refuse it")
+                    .with_fix(token, kind.keyword())
             });
         }
         self.at += 1;

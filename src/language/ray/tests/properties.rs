@@ -499,6 +499,7 @@ proptest! {
             let mut told: Vec<_> = lowered.diagnostics.iter().cloned().collect();
             for found in &mut told {
                 found.span = Span::at(0);
+                found.fix.iter_mut().for_each(|edit| edit.span = Span::at(0));
             }
             (lowered.scene, format!("{told:?} {:?}", source.origins))
         };

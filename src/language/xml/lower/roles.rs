@@ -167,9 +167,10 @@ impl<'a> Lowering<'a> {
         if found.is_none() {
             let name = self.name(element);
             let types: Vec<_> = class.kinds.iter().map(|kind| kind.word).collect();
-            let hint = meaning(class.hint, nearest_word(word, types.iter().copied()));
+            let nearest = nearest_word(word, types.iter().copied());
             let message = || format!("{name}: unknown type {}", quoted(word));
-            self.warn(attribute.value, message, &types.join(" or "), &hint);
+            let expected = types.join(" or ");
+            self.mistaken(&[attribute.value], message, &expected, class.hint, nearest);
         }
         found.or(class.otherwise)
     }
@@ -183,11 +184,13 @@ impl<'a> Lowering<'a> {
         let hint = match (place, nearest) {
             (Some((place, _)), _) => format!("it is skipped; it belongs in `{place}`"),
             (None, None) => "it is skipped with all its content".to_owned(),
-            (None, nearest) => meaning(SKIPPED, nearest),
+            (None, Some(_)) => SKIPPED.to_owned(),
         };
         let expected = listed(&known, "nothing");
         let message = || format!("{name}: unknown in {outer}");
-        self.warn(self.place(element), message, &expected, &hint);
+        let nearest = nearest.filter(|_| place.is_none());
+        let names = self.tree.elements[element].names();
+        self.mistaken(&names, message, &expected, &hint, nearest);
     }
 
     /// The parameters of an element.
@@ -240,11 +243,31 @@ impl<'a> Lowering<'a> {
             }
             let name = quoted(self.name(element));
             let nearest = nearest_word(word, known.iter().copied());
-            let hint = meaning(SKIPPED, nearest);
             let expected = listed(&known, "no attribute");
             let message = || format!("attribute {}: unknown in {name}", quoted(word));
-            self.warn(place, message, &expected, &hint);
+            self.mistaken(&[place], message, &expected, SKIPPED, nearest);
         }
+    }
+
+    /// Warns of a word at these places, the first of which is shown. `hint` says what becomes of it, and
+    /// `nearest` is the word that was probably meant.
+    fn mistaken(
+        &mut self,
+        places: &[Span],
+        message: impl FnOnce() -> String,
+        expected: &str,
+        hint: &str,
+        nearest: Option<&str>,
+    ) {
+        self.report.warning(|| {
+            let warning = Diagnostic::warning(places[0], message(), expected);
+            let Some(nearest) = nearest else {
+                return warning.with_hint(hint);
+            };
+            let warning = warning.with_hint(format!("{hint}; did you mean `{nearest}`?"));
+            let places = places.iter();
+            places.fold(warning, |all, place| all.with_fix(*place, nearest))
+        });
     }
 
     /// Warns of text between tags.
@@ -268,14 +291,6 @@ impl<'a> Lowering<'a> {
                 Diagnostic::warning(span, message, "elements").with_hint(hint)
             });
         }
-    }
-}
-
-/// What becomes of something, and the word that was probably meant.
-fn meaning(hint: &str, nearest: Option<&str>) -> String {
-    match nearest {
-        Some(nearest) => format!("{hint}; did you mean `{nearest}`?"),
-        None => hint.to_owned(),
     }
 }
 

@@ -77,6 +77,14 @@ impl Element {
         self.tag == self.whole
     }
 
+    /// Its name wherever it stands: in the start tag, and in the end tag if there is one.
+    pub(crate) fn names(&self) -> Vec<Span> {
+        let start = self.close as usize + "</".len();
+        let end = Span::new(start, start + self.name.len());
+        let end = (!self.is_empty_tag()).then_some(end);
+        [self.name].into_iter().chain(end).collect()
+    }
+
     /// The indices of its attributes.
     pub(crate) fn attributes(&self) -> Range<usize> {
         self.first_attribute as usize..self.end_attribute as usize
