@@ -53,7 +53,7 @@ use losses::Losses;
 use memory::OutOfMemory;
 use memory_estimate::Counts;
 use scene::{Camera, Meshes, Scene};
-use schema::{Category, Field};
+use schema::{Category, Field, Schema};
 use text::{Diagnostic, Edit, Findings, Span, alternatives};
 use view::Numbers;
 
@@ -64,6 +64,7 @@ pub use listed::Visibility;
 pub use memory_estimate::fits;
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use picture_lint::{Outlook, Prospect, outlook};
+pub use rendering::settings;
 pub use roles::{Role, Roles};
 pub use saved::{SavedView, view_name};
 pub use structure::{
@@ -237,6 +238,16 @@ impl Language {
         let extension = extension.as_ref();
         let is = |known: &Self| extension.eq_ignore_ascii_case(known.extension());
         Self::ALL.into_iter().find(is)
+    }
+
+    /// The records of the language; `None` if it consists of elements.
+    pub const fn schema(self) -> Option<&'static Schema> {
+        match self {
+            Self::Ray => Some(&ray::SCHEMA),
+            Self::Dat => Some(&dat::SCHEMA),
+            Self::Cse167 => Some(&cse167::SCHEMA),
+            Self::Xml => None,
+        }
     }
 
     /// Returns the language for a file name's extension, ignoring case.

@@ -3,16 +3,27 @@
 use std::sync::LazyLock;
 
 use super::field_spans::{Component, FieldSpans, Insertion, Piece, Wanted};
-use super::report::{did_you_mean, number_in_comment, quoted};
-use super::schema::{Field, Kind, Range};
+use super::report::{number_in_comment, quoted};
+use super::schema::{Field, Kind, Named, Range};
 use super::view::{beginning, line_ending, whole_lines};
 use super::words::Words;
 use scene::{RenderKey, Rendering, Values};
-use text::{Diagnostic, Edit, Findings, SKIPPED, Span, nearest_word};
+use text::{Diagnostic, Edit, Findings, SKIPPED, Span, did_you_mean, nearest_word};
 
 /// The settings that texts may state, as fields in the order of the interface.
 static FIELDS: LazyLock<Vec<(RenderKey, Field)>> =
     LazyLock::new(|| RenderKey::of_text().map(|key| (key, field(key))).collect());
+
+/// The settings that texts may state.
+pub fn settings() -> Vec<Named> {
+    let named = |(key, field): &'static (RenderKey, Field)| Named {
+        name: field.key,
+        field,
+        component: 0,
+        default: key.value(&Rendering::default()),
+    };
+    FIELDS.iter().map(named).collect()
+}
 
 fn field(key: RenderKey) -> Field {
     let setting = key.setting();

@@ -464,7 +464,7 @@ fn capabilities(encoding: Encoding) -> Value {
             "referencesProvider": true,
             "documentHighlightProvider": true,
             "renameProvider": { "prepareProvider": true },
-            "completionProvider": { "triggerCharacters": [" ", "\""] },
+            "completionProvider": { "triggerCharacters": [" ", "\"", "<", "/"] },
             "codeActionProvider": { "codeActionKinds": [actions::KIND] },
             "documentSymbolProvider": true,
             "foldingRangeProvider": true,

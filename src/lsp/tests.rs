@@ -1,6 +1,7 @@
 //! Sessions of a scripted client.
 
 mod actions;
+mod completion;
 
 use std::io::{Cursor, Write};
 use std::sync::{Arc, Mutex};

@@ -168,6 +168,16 @@ impl Diagnostic {
         self
     }
 
+    /// The same in a text in which its parts are elsewhere.
+    #[must_use]
+    pub fn moved(mut self, place: impl Fn(Span) -> Span) -> Self {
+        self.span = place(self.span);
+        for edit in &mut self.fix {
+            edit.span = place(edit.span);
+        }
+        self
+    }
+
     /// Whether this prevents rendering.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error

@@ -24,9 +24,10 @@ use crate::written::Parse;
 use crate::{FieldSpans, Lowered, Motion, Node, SceneText, StructureError};
 use glam::DVec3;
 use scene::Camera;
-use schema::{LightKind, SCHEMA, SOURCES};
+use schema::{LightKind, SOURCES};
 use text::{Edit, Findings, Span};
 
+pub(super) use schema::SCHEMA;
 pub(super) use write::write;
 
 /// A `.dat` text.

@@ -2,9 +2,9 @@
 
 use super::Language;
 use crate::record::what;
-use crate::report::{Name, did_you_mean, quoted};
+use crate::report::{Name, quoted};
 use crate::schema::{Field, Record, Repeat, Slot};
-use text::{Diagnostic, Span, counted, nearest_word};
+use text::{Diagnostic, Span, counted, did_you_mean, nearest_word};
 
 /// The most words listed as what a line may begin with.
 const LISTED: usize = 12;

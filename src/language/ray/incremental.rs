@@ -177,13 +177,7 @@ impl<'e> Change<'e> {
             if read.end <= token && self.old.len() != self.new.len() {
                 return None;
             }
-            kept.warning(|| {
-                let mut found = found.clone();
-                found.span = span;
-                let fix = found.fix.iter_mut();
-                fix.for_each(|edit| edit.span = moved(edit.span));
-                found
-            });
+            kept.warning(|| found.clone().moved(moved));
         }
         Some(kept)
     }

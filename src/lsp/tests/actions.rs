@@ -2,25 +2,13 @@
 
 use serde_json::{Value, json};
 
+use super::completion::marked;
 use super::{asked, at, open, said};
 
 const DAT: &str = "camera perspective 0 0 9 0 0 0 0 1 0 1 0 100\nresolution .1 .1\nviewport 8 6\n\
                    light ID 1 inf 0 0 1 0 0 -1 1 1 1 1 0 0 0 shadow_on\nmat ID 1 1 1 1 0 .5 0 1 0 0 1\n";
 
 const RAY: &str = "0 0 0\n0\n1\nsphere 0 0 0 1\n0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n";
-
-/// A text of this language, with the place asked for marked by `|`.
-fn marked(extension: &str, text: &str) -> (String, String, Value) {
-    let before = text.split('|').next().expect("there is one");
-    let line = before.matches('\n').count();
-    let column = before.len() - before.rfind('\n').map_or(0, |end| end + 1);
-    let uri = format!("file:///none/a.{extension}");
-    (
-        uri,
-        text.replacen('|', "", 1),
-        at(line as u32, column as u32),
-    )
-}
 
 fn actions((uri, text): (&str, &str), [start, end]: [&Value; 2], context: &Value) -> Vec<Value> {
     let range = json!({ "start": start, "end": end });
@@ -58,7 +46,8 @@ fn messages(uri: &str, text: &str) -> Vec<Value> {
 #[test]
 fn fixes_mend_what_they_are_offered_for() {
     let dat = |record: &str| format!("{DAT}{record}\n");
-    for (extension, text, title, mended) in [
+    #[rustfmt::skip]
+    let rows = [
         ("test", "camera 0 0 9 0 0 0 0 1 0 45\nsph|re 0 0 0 1\n".to_owned(), "Change `sphre` to `sphere`", "\nsphere 0 0 0 1\n"),
         ("test", "camera 0 0 9 0 0 0 0 1 0 45\nsphere 0 0 0 |1,5\n".to_owned(), "Change `1,5` to `1.5`", "0 1.5\n"),
         ("test", "camera 0 0 9 0 0 0 0 1 0 45\n|SPHERE 0 0 0 1\n".to_owned(), "Change `SPHERE` to `sphere`", "\nsphere 0 0 0 1\n"),
@@ -84,12 +73,19 @@ fn fixes_mend_what_they_are_offered_for() {
         ("xml", "<xml><scene><object name='a |< b'/></scene><camera/></xml>".to_owned(), "Change `<` to `&lt;`", "'a &lt; b'"),
         ("xml", "<xml><scene></scene><camera>|</xml>".to_owned(), "Insert `</camera>`", "<camera></camera></xml>"),
         ("xml", "<xml><scene></scene><camera>|</camra></xml>".to_owned(), "Change `</camra>` to `</camera>`", "<camera></camera></xml>"),
-    ] {
+    ];
+    for (extension, text, title, mended) in rows {
         let (uri, text, place) = marked(extension, &text);
         let offered = actions((&uri, &text), [&place, &place], &json!({}));
-        let offered: Vec<_> = offered.iter().filter(|action| action["title"] == title).collect();
+        let offered: Vec<_> = offered
+            .iter()
+            .filter(|action| action["title"] == title)
+            .collect();
         let [action] = *offered else {
-            panic!("{text}: {title}: {:?}", actions((&uri, &text), [&place, &place], &json!({})));
+            panic!(
+                "{text}: {title}: {:?}",
+                actions((&uri, &text), [&place, &place], &json!({}))
+            );
         };
         assert_eq!(action["kind"], "quickfix");
         assert_eq!(action["isPreferred"], true, "{text}");
