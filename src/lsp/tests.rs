@@ -2,6 +2,7 @@
 
 mod actions;
 mod completion;
+mod outline;
 
 use std::io::{Cursor, Write};
 use std::sync::{Arc, Mutex};
