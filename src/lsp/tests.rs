@@ -1,6 +1,7 @@
 //! Sessions of a scripted client.
 
 mod actions;
+mod colours;
 mod completion;
 mod outline;
 
