@@ -240,16 +240,6 @@ impl Language {
         Self::ALL.into_iter().find(is)
     }
 
-    /// The records of the language; `None` if it consists of elements.
-    pub const fn schema(self) -> Option<&'static Schema> {
-        match self {
-            Self::Ray => Some(&ray::SCHEMA),
-            Self::Dat => Some(&dat::SCHEMA),
-            Self::Cse167 => Some(&cse167::SCHEMA),
-            Self::Xml => None,
-        }
-    }
-
     /// Returns the language for a file name's extension, ignoring case.
     pub fn of_path(path: &Path) -> Result<Self, UnknownLanguage> {
         let known = Self::of_extension(path.extension().unwrap_or_default());
@@ -344,8 +334,12 @@ pub trait SceneText: Editable + StructureEdits {
         }
     }
 
-    /// The meaningful parts of the text, in order: tokens, and whole comments. Between them is only
-    /// white space.
+    /// The table of the records of its language; `None` if it consists of elements.
+    fn records(&self) -> Option<&'static Schema> {
+        None
+    }
+
+    /// The tokens and the whole comments of the text, in order. Between them is only white space.
     fn leaves(&self) -> Vec<Span>;
 
     /// Whether a leaf is a comment.

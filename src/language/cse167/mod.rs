@@ -25,9 +25,9 @@ use crate::written::Parse;
 use crate::{Lowered, Node, StructureError};
 use lower::Own;
 use scene::{Camera, Rendering};
+use schema::SCHEMA;
 use text::{Edit, Findings, Span};
 
-pub(super) use schema::SCHEMA;
 pub(super) use write::write;
 
 /// A `.test` text.

@@ -4,7 +4,7 @@ use crate::schema::position::words;
 use crate::schema::slots::{fov, choice, colour, number, pixels, place, point, size};
 use crate::schema::{Category, Field, Kind, Makes, Part, Range, Record, Schema, Slot};
 
-pub(crate) static SCHEMA: Schema = Schema {
+pub(super) static SCHEMA: Schema = Schema {
     extension: "test",
     noun: "command",
     is_short_at_head: true,

@@ -24,10 +24,9 @@ use crate::written::Parse;
 use crate::{FieldSpans, Lowered, Motion, Node, SceneText, StructureError};
 use glam::DVec3;
 use scene::Camera;
-use schema::{LightKind, SOURCES};
+use schema::{LightKind, SCHEMA, SOURCES};
 use text::{Edit, Findings, Span};
 
-pub(super) use schema::SCHEMA;
 pub(super) use write::write;
 
 /// A `.dat` text.

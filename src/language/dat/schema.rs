@@ -33,7 +33,7 @@ pub(super) enum LightKind {
     Ambient,
 }
 
-pub(crate) static SCHEMA: Schema = Schema {
+pub(super) static SCHEMA: Schema = Schema {
     extension: "dat",
     noun: "record",
     is_short_at_head: false,

@@ -28,7 +28,6 @@ use text::Findings;
 use tree::Tokens;
 
 pub(super) use memory_estimate::tree_bytes;
-pub(super) use schema::SCHEMA;
 pub(super) use write::write;
 
 /// A `.ray` text.

@@ -1,12 +1,12 @@
 //! What a `.ray` text says: its [`SceneText`].
 
 use super::origins::distribute;
-use super::schema::{AMBIENT, LIGHT, VIEW};
+use super::schema::{AMBIENT, LIGHT, SCHEMA, VIEW};
 use super::tree::{begins_comment, comment_of_line};
 use super::view_comment::PLACES;
 use super::{Source, incremental, lower, memory_estimate, view};
 use crate::rendering::{self, Around};
-use crate::schema::Field;
+use crate::schema::{Field, Schema};
 use crate::view::Numbers;
 use crate::written::Since;
 use crate::{Before, FieldSpans, Lowered, Node, Nodes, SceneText, Visibility};
@@ -31,6 +31,10 @@ impl SceneText for Source {
         let (origins, lowered) = found?;
         self.place(origins);
         Some(lowered)
+    }
+
+    fn records(&self) -> Option<&'static Schema> {
+        Some(&SCHEMA)
     }
 
     fn leaves(&self) -> Vec<Span> {

@@ -5,7 +5,7 @@ use crate::schema::slots::{fov, colour, direction, edge, pixels, place, point, r
 use crate::schema::{Category, Field, Makes, Range, Record, Schema, Slot};
 use text::nearest_word;
 
-pub(crate) static SCHEMA: Schema = Schema {
+pub(super) static SCHEMA: Schema = Schema {
     extension: "ray",
     noun: "object",
     is_short_at_head: false,

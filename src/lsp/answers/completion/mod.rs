@@ -44,11 +44,9 @@ enum Icon {
 
 /// The answer to `textDocument/completion`.
 pub(crate) fn at(document: &Document, at: usize) -> Value {
-    let found = match document.source.language() {
-        Language::Xml => elements::at(document, at),
-        language => language
-            .schema()
-            .and_then(|schema| records::at(document, schema, at)),
+    let found = match document.source.records() {
+        Some(schema) => records::at(document, schema, at),
+        None => elements::at(document, at),
     };
     let Choices {
         span,
