@@ -130,7 +130,8 @@ impl Findings {
         let (Some(first), Some(last)) = (edits.first(), edits.last()) else {
             return false;
         };
-        let is_here = !first.span.is_empty() && first.span.touches(found.span);
+        let is_here =
+            !before.is_empty() && !first.span.is_empty() && first.span.touches(found.span);
         left.len() < before.len()
             || (is_here && self.errors == 1 && left.iter().all(|at| last.placed().end() <= *at))
     }

@@ -5,7 +5,7 @@ use std::iter;
 use language::schema::Kind;
 use scene::Meshes;
 use serde_json::{Value, json};
-use text::{Diagnostic, Edit, Span, nearest_word};
+use text::{Diagnostic, Edit, Findings, Span, nearest_word};
 
 use super::diagnostics;
 use crate::document::Document;
@@ -41,12 +41,20 @@ pub(crate) fn within(document: &Document, asked: Span, context: &Value) -> Value
             }
         }
     }
-    let tried = fixes.into_iter().map(|fix| {
-        let mut mended = mended(document, &fix.edits);
-        mended.retain(is_here);
-        (fix, mended)
+    if fixes.is_empty() {
+        return json!([]);
+    }
+    let Some(before) = tried(document, &[]) else {
+        return json!([]);
+    };
+    let tried = fixes.into_iter().filter_map(|fix| {
+        let after = tried(document, &fix.edits)?;
+        let here = document.findings.iter().filter(is_here);
+        let mended = here.filter(|found| before.is_mended(found, &fix.edits, &after));
+        let mended: Vec<_> = mended.collect();
+        (!mended.is_empty()).then_some((fix, mended))
     });
-    let tried: Vec<_> = tried.filter(|(_, mended)| !mended.is_empty()).collect();
+    let tried: Vec<_> = tried.collect();
     let action = |(fix, mended): &(Fix, Vec<&Diagnostic>)| {
         let others = tried.iter().filter(|(other, _)| other.edits != fix.edits);
         let mut rivals = others.flat_map(|(_, others)| others);
@@ -109,19 +117,12 @@ fn straightened(document: &Document, span: Span) -> Option<Fix> {
     Some(Fix { title, edits })
 }
 
-/// The findings that a text with these edits does not have.
-fn mended<'d>(document: &'d Document, edits: &[Edit]) -> Vec<&'d Diagnostic> {
+/// What is wrong with the text after edits, apart from the files that it names.
+fn tried(document: &Document, edits: &[Edit]) -> Option<Findings> {
     let mut source = document.source.clone();
     source.change(edits);
-    // What is in files mends nothing.
-    let Ok(lowered) = source.lower(&Meshes::default()) else {
-        return Vec::new();
-    };
-    let is_mended = |found: &&Diagnostic| {
-        let (before, after) = (&document.findings, &lowered.diagnostics);
-        before.is_mended(found, edits, after)
-    };
-    document.findings.iter().filter(is_mended).collect()
+    let lowered = source.lower(&Meshes::default()).ok()?;
+    Some(lowered.diagnostics)
 }
 
 /// What an edit does, in words.

@@ -101,6 +101,28 @@ fn fixes_mend_what_they_are_offered_for() {
     }
 }
 
+/// Though the trial reads no files.
+#[test]
+fn a_missing_file_is_not_mended_by_another_fix() {
+    let text = "<xml><scene><object type='obj' name='none.obj' typ='x'/></scene><camera/></xml>";
+    let (start, end) = (at(0, 0), at(0, 99));
+    let offered = actions(("file:///none/a.xml", text), [&start, &end], &json!({}));
+    let mended = offered
+        .iter()
+        .filter_map(|action| action["diagnostics"].as_array());
+    let mended: Vec<_> = mended
+        .flatten()
+        .map(|found| found["message"].as_str())
+        .collect();
+    assert!(!mended.is_empty());
+    assert!(
+        mended
+            .iter()
+            .flatten()
+            .all(|message| message.starts_with("attribute `typ`"))
+    );
+}
+
 #[test]
 fn fixes_are_offered_where_and_as_asked() {
     let text = "camera 0 0 9 0 0 0 0 1 0 45\nspere 0 0 0 1\nspher 0 0 0 2\nsphere 0 0 0 3\n";
