@@ -145,6 +145,22 @@ fn names_are_spelled_for_their_place() {
     assert_eq!(items[0]["textEdit"]["newText"], "it&apos;s &amp;");
 }
 
+/// A list of all would take seconds.
+#[test]
+fn many_names_are_narrowed_down_by_what_is_typed() {
+    let record = |id: usize| format!("mat ID {id} 1 1 1 0 .5 0 1 0 0 1\n");
+    let materials: String = (0..3_000).map(record).collect();
+    for (typed, first, count) in [("", "0", 1_000), ("29", "29", 111), ("2999", "2999", 1)] {
+        let line = format!("viewport 8 6\n{materials}obj sphere ID 1 mat ID {typed}|\n");
+        let (uri, text, place) = marked("dat", &line);
+        let asking = json!({ "position": place });
+        let result = asked((&uri, &text), "textDocument/completion", asking)["result"].clone();
+        assert_eq!(result["isIncomplete"] == true, count == 1_000);
+        let (items, _) = offered("dat", &line);
+        assert_eq!((label(&items[0]), items.len()), (first, count));
+    }
+}
+
 #[test]
 fn files_beside_the_scene_are_offered() {
     let folder = std::env::temp_dir().join(format!("halflight-lsp-{}", std::process::id()));

@@ -41,7 +41,7 @@ pub(super) fn at(document: &Document, at: usize) -> Option<Choices> {
             return Some(files::choices(document, (value, at), kind));
         }
         choices.span = value;
-        choices.items = values(document, named, start);
+        choices.items = values(document, named, Span::new(start, at));
         return Some(choices);
     }
     let start = inside.rfind(|c| !is_named(c)).map_or(0, |at| at + 1);

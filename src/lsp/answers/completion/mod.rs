@@ -11,6 +11,9 @@ use text::{Edit, Span};
 
 use crate::document::Document;
 
+/// The maximum number of names; more are narrowed down by what is typed.
+const MOST: usize = 1_000;
+
 /// What may stand in a span.
 #[derive(Default)]
 struct Choices {
@@ -68,7 +71,7 @@ pub(crate) fn at(document: &Document, at: usize) -> Value {
         shown
     };
     let items: Vec<_> = items.into_iter().map(item).collect();
-    if is_cut {
+    if is_cut || MOST <= items.len() {
         json!({ "isIncomplete": true, "items": items })
     } else {
         json!(items)
@@ -114,8 +117,8 @@ fn described(field: &Field, component: usize, default: &str) -> String {
     said
 }
 
-/// The values that a field may have before a place, as far as they can be listed.
-fn values(document: &Document, named: &Named, before: usize) -> Vec<Item> {
+/// The values that a field may have, as far as they can be listed. `typed` is the part of one that is there.
+fn values(document: &Document, named: &Named, typed: Span) -> Vec<Item> {
     let Named { field, default, .. } = named;
     let item = |(word, icon, detail): (String, Icon, String)| Item {
         word,
@@ -131,13 +134,18 @@ fn values(document: &Document, named: &Named, before: usize) -> Vec<Item> {
             words.map(item).collect()
         }
         Kind::Reference(category) | Kind::Name(category) => {
-            let known = names(document, category, before).into_iter();
+            let mut known = names(document, category, typed.start());
+            if MOST < known.len() {
+                let typed = typed.of(document.text());
+                known.retain(|(name, _)| name.starts_with(typed));
+                known.truncate(MOST);
+            }
             let named = |(word, node)| {
                 let comment = document.source.comment(node).unwrap_or_default();
                 let detail = format!("{} {comment}", document.source.name(node));
                 (word, Icon::Reference, detail.trim_end().to_owned())
             };
-            known.map(named).map(item).collect()
+            known.into_iter().map(named).map(item).collect()
         }
         _ if field.kind.is_numeric() && !default.is_empty() => {
             let detail = described(field, named.component, default);

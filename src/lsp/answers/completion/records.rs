@@ -88,6 +88,11 @@ impl Place<'_> {
         }
     }
 
+    /// The part of the word that is before the place.
+    fn typed(self) -> Span {
+        Span::new(self.word.start(), self.at)
+    }
+
     fn is_begun(self) -> bool {
         !self.word.is_empty()
     }
@@ -133,7 +138,7 @@ impl Place<'_> {
             .last()
             .and_then(|last| all.iter().find(|known| known.name == *last));
         if let Some(key) = key {
-            return values(self.document, key, self.word.start());
+            return values(self.document, key, self.typed());
         }
         let left = all.iter().filter(|key| !words.contains(&key.name));
         left.map(Item::named).collect()
@@ -211,7 +216,7 @@ impl Place<'_> {
                 };
                 choices
                     .items
-                    .extend(values(self.document, &named, self.word.start()));
+                    .extend(values(self.document, &named, self.typed()));
             }
         }
     }
