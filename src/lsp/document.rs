@@ -24,7 +24,7 @@ pub(crate) struct Document {
     /// Its name in messages.
     pub(crate) uri: String,
     /// The file that it is, or would be.
-    pub(crate) path: PathBuf,
+    path: PathBuf,
     /// The client's number for the text, which may be null.
     pub(crate) version: Value,
     pub(crate) source: Source,

@@ -30,6 +30,7 @@ const UNKNOWN_METHOD: i32 = -32601;
 const INVALID_PARAMETERS: i32 = -32602;
 const NOT_INITIALISED: i32 = -32002;
 const REQUEST_FAILED: i32 = -32803;
+const CANCELLED: i32 = -32800;
 
 /// Why a request failed: a code and a message.
 struct Refusal(i32, String);
@@ -120,14 +121,7 @@ impl<W: Write> Server<W> {
                 self.settle()?;
                 self.note_cursor(method, parameters);
                 let answer = self.answer(method, parameters);
-                let answer = match answer {
-                    Ok(result) => json!({ "jsonrpc": "2.0", "id": id, "result": result }),
-                    Err(Refusal(code, message)) => {
-                        let error = json!({ "code": code, "message": message });
-                        json!({ "jsonrpc": "2.0", "id": id, "error": error })
-                    }
-                };
-                wire::write(&mut self.output, &answer)?;
+                self.respond(id, answer)?;
             }
             (Some("exit"), None) if self.state == State::ShutDown => return Ok(Next::End),
             (Some("exit"), None) => return Ok(Next::Quit),
@@ -139,6 +133,23 @@ impl<W: Write> Server<W> {
             _ => {}
         }
         Ok(Next::Message)
+    }
+
+    /// Answers a request that is cancelled.
+    pub(crate) fn cancel(&mut self, id: &Value) -> io::Result<()> {
+        let reason = "cancelled by the editor".to_owned();
+        self.respond(id, Err(Refusal(CANCELLED, reason)))
+    }
+
+    fn respond(&mut self, id: &Value, answer: Result<Value, Refusal>) -> io::Result<()> {
+        let answer = match answer {
+            Ok(result) => json!({ "jsonrpc": "2.0", "id": id, "result": result }),
+            Err(Refusal(code, message)) => {
+                let error = json!({ "code": code, "message": message });
+                json!({ "jsonrpc": "2.0", "id": id, "error": error })
+            }
+        };
+        wire::write(&mut self.output, &answer)
     }
 
     /// Takes the editor's answer to a request.

@@ -25,7 +25,7 @@ pub(super) fn choices(document: &Document, (span, at): (Span, usize), kind: File
         ..Choices::default()
     };
     let is_outside = folder.starts_with('/') || folder.split('/').any(|part| part == "..");
-    let Some(beside) = document.path.parent().filter(|_| !is_outside) else {
+    let Some(beside) = document.path().parent().filter(|_| !is_outside) else {
         return choices;
     };
     let Ok(entries) = fs::read_dir(beside.join(folder)) else {
