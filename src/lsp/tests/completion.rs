@@ -108,6 +108,7 @@ fn what_may_stand_at_a_place_is_offered() {
         ("xml", xml("<material name='a &amp; b'/><object material='|'/>"), "a & b", "", "a & b (blinn)"),
         ("xml", xml("<material><diffuse |"), "r g b value texture", "", "diffuse red: a number"),
         ("xml", xml("<material><refraction index='|'/></material>"), "1", "", "index: a number"),
+        ("xml", xml("<object type='\n|"), "", "", ""),
         ("xml", xml("<object></object>|"), "", "", ""),
         ("xml", xml("<!-- <obj| -->"), "", "", ""),
         ("xml", "<xml><scene/><camera><fo|</camera></xml>".to_owned(), "position target up fov", "fo", "The position"),

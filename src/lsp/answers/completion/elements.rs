@@ -27,6 +27,10 @@ pub(super) fn at(document: &Document, at: usize) -> Option<Choices> {
     let inside = &text[tag.name.end()..at];
     if let Some((quote, start)) = open_quote(inside) {
         let start = tag.name.end() + start;
+        // The protocol replaces parts of one line.
+        if text[start..at].contains(['\n', '\r']) {
+            return None;
+        }
         let name = text[tag.name.end()..start - 1].trim_end();
         let name = name.strip_suffix('=')?.trim_end();
         let name = name.rsplit(|c| !is_named(c)).next()?;
