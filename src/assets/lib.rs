@@ -28,7 +28,7 @@ pub use failure::{PictureError, PictureErrors, report};
 pub use fingerprint::{FileDigests, fingerprint};
 pub use folder::{NoFolder, check_folders};
 pub use language::xml::Up;
-pub use mesh_scene::{MeshScene, is_mesh, is_own_mesh};
+pub use mesh_scene::{MeshScene, is_mesh, is_own_mesh, is_picture};
 
 /// The limits for all files of a scene in total: 512 MiB of files, 384 MiB of decoded pictures, and
 /// as many triangles as a single mesh may have.

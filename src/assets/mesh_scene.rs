@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::{Assets, Wanted};
+use image_file::ImageFormat;
 use language::xml::{ShownMesh, Up, around_mesh};
 use language::{FileKind, NamedFile};
 use obj::Format;
@@ -27,6 +28,11 @@ pub struct MeshScene {
 /// Whether a path has the extension of a mesh, which can be opened like a scene.
 pub fn is_mesh(path: &Path) -> bool {
     Format::of_path(path).is_some()
+}
+
+/// Whether a path has the extension of a picture, which textures can be read from.
+pub fn is_picture(path: &Path) -> bool {
+    ImageFormat::of_path(path).is_some()
 }
 
 /// Whether a path is that of a mesh which only Halflight reads in scenes.

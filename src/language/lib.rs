@@ -53,7 +53,7 @@ use losses::Losses;
 use memory::OutOfMemory;
 use memory_estimate::Counts;
 use scene::{Camera, Meshes, Scene};
-use schema::{Category, Field};
+use schema::{Category, Field, Schema};
 use text::{Diagnostic, Edit, Findings, Span, alternatives};
 use view::Numbers;
 
@@ -64,6 +64,7 @@ pub use listed::Visibility;
 pub use memory_estimate::fits;
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use picture_lint::{Outlook, Prospect, outlook};
+pub use rendering::settings;
 pub use roles::{Role, Roles};
 pub use saved::{SavedView, view_name};
 pub use structure::{
@@ -333,8 +334,12 @@ pub trait SceneText: Editable + StructureEdits {
         }
     }
 
-    /// The meaningful parts of the text, in order: tokens, and whole comments. Between them is only
-    /// white space.
+    /// The table of the records of its language; `None` if it consists of elements.
+    fn records(&self) -> Option<&'static Schema> {
+        None
+    }
+
+    /// The tokens and the whole comments of the text, in order. Between them is only white space.
     fn leaves(&self) -> Vec<Span>;
 
     /// Whether a leaf is a comment.

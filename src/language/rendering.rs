@@ -3,16 +3,27 @@
 use std::sync::LazyLock;
 
 use super::field_spans::{Component, FieldSpans, Insertion, Piece, Wanted};
-use super::report::{did_you_mean, number_in_comment, quoted};
-use super::schema::{Field, Kind, Range};
+use super::report::{number_in_comment, quoted};
+use super::schema::{Field, Kind, Named, Range};
 use super::view::{beginning, line_ending, whole_lines};
 use super::words::Words;
 use scene::{RenderKey, Rendering, Values};
-use text::{Diagnostic, Edit, Findings, SKIPPED, Span, nearest_word};
+use text::{Diagnostic, Edit, Findings, SKIPPED, Span, did_you_mean, nearest_word};
 
 /// The settings that texts may state, as fields in the order of the interface.
 static FIELDS: LazyLock<Vec<(RenderKey, Field)>> =
     LazyLock::new(|| RenderKey::of_text().map(|key| (key, field(key))).collect());
+
+/// The settings that texts may state.
+pub fn settings() -> Vec<Named> {
+    let named = |(key, field): &'static (RenderKey, Field)| Named {
+        name: field.key,
+        field,
+        component: 0,
+        default: key.value(&Rendering::default()),
+    };
+    FIELDS.iter().map(named).collect()
+}
 
 fn field(key: RenderKey) -> Field {
     let setting = key.setting();
@@ -227,7 +238,9 @@ fn misspelt(text: &str, first: Span, second: Option<Span>) -> Option<Diagnostic>
     }
     let message = format!("render: {} is no key: the comment is ignored", quoted(word));
     let warning = Diagnostic::warning(first, message, listed());
-    Some(warning.with_hint(format!("did you mean `{meant} VALUE`?")))
+    let right = format!("{meant} {value}");
+    let warning = warning.with_hint(format!("did you mean `{meant} VALUE`?"));
+    Some(warning.with_fix(first, right.trim_end()))
 }
 
 fn keys() -> impl Iterator<Item = &'static str> {
@@ -244,8 +257,13 @@ fn index_of(key: &str) -> Option<usize> {
 
 fn unknown_key(span: Span, key: &str) -> Diagnostic {
     let message = format!("render: unknown key {}", quoted(key));
-    let diagnostic = Diagnostic::warning(span, message, listed());
-    did_you_mean(diagnostic, nearest_word(key, keys()), Some(SKIPPED))
+    // Its value needs no correction.
+    let own = Span::new(span.start(), span.start() + key.len());
+    let diagnostic = Diagnostic::warning(own, message, listed());
+    Diagnostic {
+        span,
+        ..did_you_mean(diagnostic, nearest_word(key, keys()), Some(SKIPPED))
+    }
 }
 
 /// The value of a setting: a number, or the index of a word; an error is a warning for the text.

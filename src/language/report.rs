@@ -4,8 +4,8 @@ use std::fmt;
 
 use super::schema::Field;
 use text::{
-    Diagnostic, Findings, NumberError, Severity, Span, concise, is_integer, parse_number,
-    without_suffix,
+    Diagnostic, Findings, NumberError, Severity, Span, concise, is_integer, meant_number,
+    parse_number, without_suffix,
 };
 
 /// A token for display in messages: in backticks, truncated, unprintable characters escaped.
@@ -41,6 +41,7 @@ pub(super) fn number(
         let expected = format!("a number without it: {}", quoted(plain).trim_matches('`'));
         Diagnostic::warning(span, message, expected)
             .with_hint("other readers of the format may refuse it")
+            .with_fix(span, plain)
     });
     Ok(value)
 }
@@ -111,11 +112,13 @@ pub(super) fn out_of_range(field: &Field, span: Span, value: f64, what: &str) ->
         return Diagnostic::error(span, message, field.allowed.words_against(value));
     }
     let message = format!("{what}: {} is not {}", concise(value), field.usual.limits());
-    let hint = match field.reads_as {
-        Some(value) => format!("it is read as {value}"),
-        None => "it is used as given".to_owned(),
-    };
-    Diagnostic::warning(span, message, field.usual.words()).with_hint(hint)
+    let warning = Diagnostic::warning(span, message, field.usual.words());
+    match field.reads_as {
+        Some(value) => warning
+            .with_hint(format!("it is read as {value}"))
+            .with_fix(span, value.to_string()),
+        None => warning.with_hint("it is used as given"),
+    }
 }
 
 /// The diagnostic for a token where a number is expected. `what` names the field.
@@ -132,64 +135,14 @@ pub(super) fn no_number(
         NumberError::NotANumber => format!("{what}: {shown} is not a number"),
         NumberError::Overflow => format!("{what}: {shown} is too large for any number"),
     };
-    Diagnostic {
+    let found = Diagnostic {
         severity,
-        hint: number_hint(token, error),
+        hint: error.hint(token),
         ..Diagnostic::error(span, message, expected)
-    }
-}
-
-/// A hint at what was probably meant by a token that is not a number.
-fn number_hint(token: &str, error: NumberError) -> Option<String> {
-    const LONGEST: usize = 64;
-    if LONGEST < token.len() {
-        return None;
-    }
-    if error == NumberError::Overflow {
-        return Some("numbers go up to about 1.8e308".to_owned());
-    }
-    if let Some(plain) = without_suffix(token) {
-        return Some(format!("write {plain}"));
-    }
-    let reads = |text: &str| parse_number(text).is_ok();
-    let unsigned = token.trim_start_matches(['+', '-']);
-    let unhexed = unsigned
-        .strip_prefix("0x")
-        .or_else(|| unsigned.strip_prefix("0X"));
-    if let Some(digits) = unhexed
-        && let Ok(value) = u64::from_str_radix(digits, 16)
-    {
-        let sign = if token.starts_with('-') { "-" } else { "" };
-        return Some(format!("numbers are decimal: write {sign}{value}"));
-    }
-    if token.matches(',').count() == 1 && reads(&token.replace(',', ".")) && !token.ends_with(',') {
-        let pointed = token.replace(',', ".");
-        return Some(format!("the decimal separator is a point: write {pointed}"));
-    }
-    if token.contains(',') && token.split(',').all(|part| part.is_empty() || reads(part)) {
-        return Some("numbers are separated by white space, without commas".to_owned());
-    }
-    let plain = token.replace(['−', '–', '—'], "-");
-    if plain != token && reads(&plain) {
-        return Some(format!("the minus sign is `-`: write {plain}"));
-    }
-    let word = unsigned.to_ascii_lowercase();
-    if matches!(word.as_str(), "nan" | "inf" | "infinity") {
-        return Some("numbers are finite".to_owned());
-    }
-    None
-}
-
-/// Adds a question after the word that was probably meant; `otherwise` if none is known.
-pub(super) fn did_you_mean(
-    diagnostic: Diagnostic,
-    meant: Option<&str>,
-    otherwise: Option<&str>,
-) -> Diagnostic {
-    let question = meant.map(|word| format!("did you mean `{word}`?"));
-    Diagnostic {
-        hint: question.or_else(|| otherwise.map(str::to_owned)),
-        ..diagnostic
+    };
+    match meant_number(token) {
+        Some(number) => found.with_fix(span, number),
+        None => found,
     }
 }
 
@@ -224,30 +177,6 @@ impl fmt::Display for Name {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn malformed_numbers_get_a_hint() {
-        for (token, hint) in [
-            ("1,5", Some("write 1.5")),
-            ("1,2,3", Some("without commas")),
-            ("1,", Some("without commas")),
-            ("-0x10", Some("write -16")),
-            ("−3", Some("write -3")),
-            ("3f", Some("write 3")),
-            ("NaN", Some("finite")),
-            ("1e999", Some("1.8e308")),
-            ("abc", None),
-            ("0x", None),
-            ("0xffffffffffffffffffffffff", None),
-        ] {
-            let error = parse_number(token).expect_err("no number");
-            let found = number_hint(token, error);
-            match hint {
-                Some(part) => assert!(found.is_some_and(|hint| hint.contains(part)), "{token}"),
-                None => assert_eq!(found, None, "{token}"),
-            }
-        }
-    }
 
     #[test]
     fn quoted_tokens_are_truncated_and_printable() {

@@ -172,7 +172,7 @@ impl Document {
 
     /// The length of a part of a line, as the client counts.
     pub(crate) fn length(&self, span: Span) -> usize {
-        self.encoding.length(span.of(self.text()))
+        self.encoding.length(span.of(self.text()).as_bytes())
     }
 
     /// A span as a place that an editor can go to.

@@ -6,6 +6,7 @@
 
 mod answers;
 mod document;
+mod inbox;
 mod linked;
 mod positions;
 mod server;
@@ -23,6 +24,7 @@ use std::time::Instant;
 use link::ToEditor;
 use serde_json::Value;
 
+use inbox::Inbox;
 use server::{Next, Server};
 use wire::Broken;
 
@@ -72,25 +74,16 @@ pub fn serve(input: impl Read + Send + 'static, output: impl Write) -> Result<()
         }
     });
     let mut server = Server::new(output, sender);
+    let mut inbox = Inbox::new(inbox);
     loop {
-        let waiting = inbox.try_recv();
-        if waiting.is_err() {
+        let Some(event) = inbox.next() else {
             server.settle()?;
-        }
-        let event = match (waiting, server.next_due()) {
-            (Ok(event), _) => event,
-            (Err(_), None) => inbox.recv().map_err(|_| Error::Quit)?,
-            (Err(_), Some(due)) => {
-                let patience = due.saturating_duration_since(Instant::now());
-                match inbox.recv_timeout(patience) {
-                    Ok(event) => event,
-                    Err(RecvTimeoutError::Timeout) => {
-                        server.do_due(Instant::now())?;
-                        continue;
-                    }
-                    Err(RecvTimeoutError::Disconnected) => return Err(Error::Quit),
-                }
+            match inbox.wait(server.next_due()) {
+                Ok(()) => {}
+                Err(RecvTimeoutError::Timeout) => server.do_due(Instant::now())?,
+                Err(RecvTimeoutError::Disconnected) => return Err(Error::Quit),
             }
+            continue;
         };
         let message = match event {
             Event::Editor(message) => message.ok_or(Error::Quit)?,
@@ -100,6 +93,10 @@ pub fn serve(input: impl Read + Send + 'static, output: impl Write) -> Result<()
             }
         };
         let message = message.map_err(|broken| Error::Broken(broken.to_string()))?;
+        if let Some(id) = inbox.cancelled(&message) {
+            server.cancel(id)?;
+            continue;
+        }
         match server.take(&message)? {
             Next::Message => {}
             Next::End => return Ok(()),

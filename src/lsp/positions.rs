@@ -33,12 +33,17 @@ impl Encoding {
         found.unwrap_or_default()
     }
 
-    /// The length of a text without line ends.
-    pub(crate) fn length(self, text: &str) -> usize {
+    /// The length of a text without line ends, in bytes of UTF-8, of which each character is counted at
+    /// its first.
+    pub(crate) fn length(self, text: &[u8]) -> usize {
+        let begins = |byte: &&u8| **byte & 0xC0 != 0x80;
+        let begins_pair = |byte: &&u8| 0xF0 <= **byte;
         match self {
             Self::Utf8 => text.len(),
-            Self::Utf16 => text.chars().map(char::len_utf16).sum(),
-            Self::Utf32 => text.chars().count(),
+            Self::Utf16 => {
+                text.iter().filter(begins).count() + text.iter().filter(begins_pair).count()
+            }
+            Self::Utf32 => text.iter().filter(begins).count(),
         }
     }
 
@@ -60,12 +65,17 @@ impl Encoding {
     }
 }
 
+/// The number of bytes whose characters are counted together, since lines may be long.
+const BLOCK: usize = 1024;
+
 /// Where the lines of a text begin. CR LF, LF and CR end a line, as in the protocol.
 #[derive(Clone, Debug)]
 pub(crate) struct Lines {
     starts: Vec<u32>,
     /// Whether all characters are one byte, so that none need be counted.
     is_ascii: bool,
+    /// The lengths in UTF-16 and UTF-32 of the text before each block, and of all of it; empty for ASCII.
+    before: Vec<[u32; 2]>,
 }
 
 impl Lines {
@@ -73,10 +83,22 @@ impl Lines {
         let mut starts = vec![0];
         let mut at = 0;
         let is_ascii = text.is_ascii();
+        let mut before = Vec::new();
+        let mut sums = [0; 2];
+        for block in text.as_bytes().chunks(BLOCK).filter(|_| !is_ascii) {
+            before.push(sums);
+            let lengths = [Encoding::Utf16, Encoding::Utf32].map(|of| of.length(block) as u32);
+            sums = [sums[0] + lengths[0], sums[1] + lengths[1]];
+        }
+        before.extend((!is_ascii).then_some(sums));
         loop {
             let end = line_end(text, at);
             if end == text.len() {
-                return Self { starts, is_ascii };
+                return Self {
+                    starts,
+                    is_ascii,
+                    before,
+                };
             }
             at = end + 1;
             if text.as_bytes()[end..].starts_with(b"\r\n") {
@@ -124,13 +146,27 @@ impl Lines {
     pub(crate) fn position(&self, text: &str, at: usize, encoding: Encoding) -> Value {
         let line = self.line(at);
         let (start, own) = self.text(text, line);
-        let before = own.len().min(at - start);
-        let character = if self.is_ascii {
-            before
-        } else {
-            encoding.length(&own[..before])
-        };
+        let end = at.min(start + own.len());
+        let [end, start] = [end, start].map(|at| self.length(text, at, encoding));
+        let character = end - start;
         json!({ "line": line, "character": character })
+    }
+
+    /// The length of a text up to an offset.
+    fn length(&self, text: &str, at: usize, encoding: Encoding) -> usize {
+        let column = match encoding {
+            Encoding::Utf16 => 0,
+            Encoding::Utf32 => 1,
+            Encoding::Utf8 => return at,
+        };
+        let block = at / BLOCK;
+        match self.before.get(block) {
+            Some(before) => {
+                let rest = &text.as_bytes()[block * BLOCK..at];
+                before[column] as usize + encoding.length(rest)
+            }
+            None => at,
+        }
     }
 
     /// The range of a span.
@@ -191,6 +227,27 @@ mod tests {
             for (offset, _) in text.char_indices().filter(|(_, c)| !"\r\n".contains(*c)) {
                 let position = lines.position(text, offset, encoding);
                 assert_eq!(lines.offset(text, &position, encoding), Some(offset));
+            }
+        }
+    }
+
+    #[test]
+    fn positions_in_long_lines_are_those_of_their_characters() {
+        // Some end where a block does, some blocks within a character.
+        for count in [128, 147, 1000] {
+            let text = "é\u{1F600}ab".repeat(count);
+            let lines = Lines::of(&text);
+            for encoding in ALL {
+                for (at, _) in text.char_indices().chain([(text.len(), ' ')]) {
+                    let characters = text[..at].chars();
+                    let expected: usize = match encoding {
+                        Encoding::Utf8 => at,
+                        Encoding::Utf16 => characters.map(char::len_utf16).sum(),
+                        Encoding::Utf32 => characters.count(),
+                    };
+                    let position = lines.position(&text, at, encoding);
+                    assert_eq!(position["character"], expected, "{count} {at} {encoding:?}");
+                }
             }
         }
     }

@@ -12,7 +12,9 @@ use link::{ToEditor, ToInterface};
 use serde_json::{Value, json};
 use text::{Findings, Span};
 
-use crate::answers::{colours, completion, diagnostics, hints, hover, names, outline, tokens};
+use crate::answers::{
+    actions, colours, completion, diagnostics, hints, hover, names, outline, tokens,
+};
 use crate::document::{Document, LONGEST};
 use crate::linked::{self, Links};
 use crate::positions::Encoding;
@@ -28,6 +30,7 @@ const UNKNOWN_METHOD: i32 = -32601;
 const INVALID_PARAMETERS: i32 = -32602;
 const NOT_INITIALISED: i32 = -32002;
 const REQUEST_FAILED: i32 = -32803;
+const CANCELLED: i32 = -32800;
 
 /// Why a request failed: a code and a message.
 struct Refusal(i32, String);
@@ -118,14 +121,7 @@ impl<W: Write> Server<W> {
                 self.settle()?;
                 self.note_cursor(method, parameters);
                 let answer = self.answer(method, parameters);
-                let answer = match answer {
-                    Ok(result) => json!({ "jsonrpc": "2.0", "id": id, "result": result }),
-                    Err(Refusal(code, message)) => {
-                        let error = json!({ "code": code, "message": message });
-                        json!({ "jsonrpc": "2.0", "id": id, "error": error })
-                    }
-                };
-                wire::write(&mut self.output, &answer)?;
+                self.respond(id, answer)?;
             }
             (Some("exit"), None) if self.state == State::ShutDown => return Ok(Next::End),
             (Some("exit"), None) => return Ok(Next::Quit),
@@ -137,6 +133,23 @@ impl<W: Write> Server<W> {
             _ => {}
         }
         Ok(Next::Message)
+    }
+
+    /// Answers a request that is cancelled.
+    pub(crate) fn cancel(&mut self, id: &Value) -> io::Result<()> {
+        let reason = "cancelled by the editor".to_owned();
+        self.respond(id, Err(Refusal(CANCELLED, reason)))
+    }
+
+    fn respond(&mut self, id: &Value, answer: Result<Value, Refusal>) -> io::Result<()> {
+        let answer = match answer {
+            Ok(result) => json!({ "jsonrpc": "2.0", "id": id, "result": result }),
+            Err(Refusal(code, message)) => {
+                let error = json!({ "code": code, "message": message });
+                json!({ "jsonrpc": "2.0", "id": id, "error": error })
+            }
+        };
+        wire::write(&mut self.output, &answer)
     }
 
     /// Takes the editor's answer to a request.
@@ -416,6 +429,9 @@ impl<W: Write> Server<W> {
                 renamed.map_err(|reason| Refusal(REQUEST_FAILED, reason))
             }),
             "textDocument/completion" => at(&|document, at| Ok(completion::at(document, at))),
+            "textDocument/codeAction" => {
+                within(&|document, range| actions::within(document, range, &parameters["context"]))
+            }
             "textDocument/documentSymbol" => all(outline::symbols),
             "textDocument/foldingRange" => all(outline::folds),
             "textDocument/documentColor" => all(colours::all),
@@ -459,7 +475,8 @@ fn capabilities(encoding: Encoding) -> Value {
             "referencesProvider": true,
             "documentHighlightProvider": true,
             "renameProvider": { "prepareProvider": true },
-            "completionProvider": { "triggerCharacters": [" ", "\""] },
+            "completionProvider": { "triggerCharacters": [" ", "\"", "<", "/"] },
+            "codeActionProvider": { "codeActionKinds": [actions::KIND] },
             "documentSymbolProvider": true,
             "foldingRangeProvider": true,
             "inlayHintProvider": true,

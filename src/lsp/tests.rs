@@ -1,5 +1,10 @@
 //! Sessions of a scripted client.
 
+mod actions;
+mod colours;
+mod completion;
+mod outline;
+
 use std::io::{Cursor, Write};
 use std::sync::{Arc, Mutex};
 
@@ -149,7 +154,7 @@ fn requests_out_of_turn_are_refused_and_notes_ignored() {
         request(6, "workspace/nothing", json!({})),
         json!([1, { "id": 3 }]),
         json!({ "id": 4 }),
-        note("$/cancelRequest", json!({ "id": 5 })),
+        note("$/cancelRequest", json!({ "id": 77 })),
         note(
             "textDocument/didChange",
             json!({ "textDocument": { "uri": "file:///b" } }),

@@ -1,6 +1,6 @@
 //! Errors, warnings and notes at spans of a text.
 
-use super::{Position, Span};
+use super::{Edit, Position, Span};
 
 /// The severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -26,6 +26,8 @@ pub struct Diagnostic {
     pub expected: String,
     /// How to fix it, if known.
     pub hint: Option<String>,
+    /// The edits of the text that do, sorted and disjoint; empty if they are not known.
+    pub fix: Vec<Edit>,
     /// The place in another file that it is about; the span then leads to that file.
     pub cited: Option<Box<Cited>>,
 }
@@ -70,6 +72,7 @@ impl Diagnostic {
             message: message.into(),
             expected: expected.into(),
             hint: None,
+            fix: Vec::new(),
             cited: None,
         }
     }
@@ -155,6 +158,24 @@ impl Diagnostic {
             hint: Some(hint.into()),
             ..self
         }
+    }
+
+    /// Adds an edit that corrects the text, behind those added before, which belong to it.
+    #[must_use]
+    pub fn with_fix(mut self, span: Span, text: impl Into<String>) -> Self {
+        let text = text.into();
+        self.fix.push(Edit { span, text });
+        self
+    }
+
+    /// The same in a text in which its parts are elsewhere.
+    #[must_use]
+    pub fn moved(mut self, place: impl Fn(Span) -> Span) -> Self {
+        self.span = place(self.span);
+        for edit in &mut self.fix {
+            edit.span = place(edit.span);
+        }
+        self
     }
 
     /// Whether this prevents rendering.

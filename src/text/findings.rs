@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use super::{Diagnostic, Position, Severity, counted};
+use super::{Diagnostic, Edit, Position, Severity, counted};
 
 /// Maximum number of diagnostics kept per severity. More tell the user nothing new, and a hostile
 /// text could cause millions.
@@ -117,6 +117,23 @@ impl Findings {
         };
         let Position { line, column } = Position::of(text, first.span.start());
         format!("{count}, the first at {line}:{column}: {}", first.message)
+    }
+
+    /// Whether edits that turn the text of these findings into that of `after` mend one of them: it is said
+    /// less often or, where only the first error is found, of a place behind what they replace.
+    pub fn is_mended(&self, found: &Diagnostic, edits: &[Edit], after: &Self) -> bool {
+        let same = |all: &Self| {
+            let same = all.iter().filter(|other| other.message == found.message);
+            same.map(|other| other.span.start()).collect::<Vec<_>>()
+        };
+        let (before, left) = (same(self), same(after));
+        let (Some(first), Some(last)) = (edits.first(), edits.last()) else {
+            return false;
+        };
+        let is_here =
+            !before.is_empty() && !first.span.is_empty() && first.span.touches(found.span);
+        left.len() < before.len()
+            || (is_here && self.errors == 1 && left.iter().all(|at| last.placed().end() <= *at))
     }
 
     /// Sorts the diagnostics kept by the start of their spans.

@@ -9,6 +9,7 @@ mod findings;
 mod lines;
 mod nearest;
 mod number;
+mod number_hint;
 mod percentage;
 mod seek;
 mod shell;
@@ -22,11 +23,12 @@ pub use duration::parse_duration;
 pub use edit::{Edit, apply, common_prefix, cover, difference, smallest_edit};
 pub use findings::Findings;
 pub use lines::{is_line_end, is_one_line_end, line_end, line_start, next_line};
-pub use nearest::nearest_word;
+pub use nearest::{did_you_mean, nearest_word};
 pub use number::{
     NumberError, are_plain_numbers, concise, decimals, is_integer, leading_number, parse_number,
     rounded, spell_like, without_suffix,
 };
+pub use number_hint::meant_number;
 pub use percentage::percentage;
 pub use seek::first_byte;
 pub use shell::{shell_path, shell_word, shell_words};

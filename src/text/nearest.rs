@@ -1,5 +1,7 @@
 //! The known word that a misspelt one was probably meant to be.
 
+use super::Diagnostic;
+
 /// Returns the known word closest to a word, regardless of case: at most two typing slips apart,
 /// and one if it is short.
 pub fn nearest_word<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
@@ -20,6 +22,24 @@ pub fn nearest_word<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) ->
     close
         .min_by_key(|&(slips, _)| slips)
         .map(|(_, known)| known)
+}
+
+/// Adds a question after the word that was probably meant in its place; `otherwise` if none is known.
+pub fn did_you_mean(
+    diagnostic: Diagnostic,
+    meant: Option<&str>,
+    otherwise: Option<&str>,
+) -> Diagnostic {
+    let span = diagnostic.span;
+    match meant {
+        Some(word) => diagnostic
+            .with_hint(format!("did you mean `{word}`?"))
+            .with_fix(span, word),
+        None => Diagnostic {
+            hint: otherwise.map(str::to_owned),
+            ..diagnostic
+        },
+    }
 }
 
 /// The Levenshtein distance in characters, regardless of case: the smallest number of insertions,

@@ -11,7 +11,7 @@ use crate::field_spans::{self, Wanted};
 use crate::memory_estimate::scene_fits;
 use crate::node::{FileKind, object_at, place_of};
 use crate::rendering::{self, Around};
-use crate::schema::{Category, Field, Kind, Makes, Record};
+use crate::schema::{Category, Field, Kind, Makes, Record, Schema};
 use crate::view::Numbers;
 use crate::{FieldSpans, Lowered, NamedFile, Node, Nodes, SceneText, Visibility};
 use geometry::{Affine, Shape};
@@ -30,6 +30,10 @@ where
         let fits = scene_fits(self.tree.records.len(), "record", RECORD);
         let found = fits.map(|()| L::lower(&self.text, &self.tree));
         self.store(found)
+    }
+
+    fn records(&self) -> Option<&'static Schema> {
+        Some(L::SCHEMA)
     }
 
     fn leaves(&self) -> Vec<Span> {

@@ -2,9 +2,9 @@
 
 use super::Language;
 use crate::record::what;
-use crate::report::{Name, did_you_mean, quoted};
+use crate::report::{Name, quoted};
 use crate::schema::{Field, Record, Repeat, Slot};
-use text::{Diagnostic, Span, counted, nearest_word};
+use text::{Diagnostic, Span, counted, did_you_mean, nearest_word};
 
 /// The most words listed as what a line may begin with.
 const LISTED: usize = 12;
@@ -32,6 +32,7 @@ pub(super) fn other_case(first: Span, word: &str, head: &str) -> Diagnostic {
     let message = format!("{} should be `{head}`", quoted(word));
     Diagnostic::warning(first, message, format!("`{head}`"))
         .with_hint("other readers of the format may refuse it")
+        .with_fix(first, head)
 }
 
 /// The error for a line whose second word is unknown or missing.
@@ -98,10 +99,11 @@ pub(super) fn no_word<L: Language>(
     let expected = expected.join(" or ");
     let message = format!("{name}: expected {expected}, not {}", quoted(word));
     let diagnostic = Diagnostic::error(token, message, expected);
-    if dues.iter().any(|due| word.eq_ignore_ascii_case(due)) {
-        diagnostic.with_hint("words are case-sensitive")
-    } else {
-        diagnostic
+    match dues.iter().find(|due| word.eq_ignore_ascii_case(due)) {
+        Some(due) => diagnostic
+            .with_hint("words are case-sensitive")
+            .with_fix(token, *due),
+        None => diagnostic,
     }
 }
 
@@ -128,7 +130,7 @@ pub(super) fn miscounted(
     let verb = if have == 1 { "follows" } else { "follow" };
     let follow = format!("{} {verb}", counted(have, noun));
     let message = format!("{name}: declares {shown}, but {follow}");
-    Diagnostic::error(token, message, "as many as there are")
+    Diagnostic::error(token, message, "as many as there are").with_fix(token, have.to_string())
 }
 
 pub(super) fn no_choice(

@@ -16,7 +16,7 @@ use crate::written::{Replaced, numbers};
 use crate::{Before, Lowered};
 use scene::blocks::BLOCK;
 use scene::{Materials, Object, Objects, Scene};
-use text::{Diagnostic, Findings, Span, line_start, next_line};
+use text::{Findings, Span, line_start, next_line};
 
 /// The most tokens read again, on a single thread; with more, the whole text is read in parallel.
 const MOST: usize = 1 << 16;
@@ -165,7 +165,8 @@ impl<'e> Change<'e> {
             if self.region.is_some_and(is_in) || self.edits.iter().any(|edit| is_in(edit.old)) {
                 continue;
             }
-            let span = Span::new(self.moved(start), self.moved(found.span.end()));
+            let moved = |span: Span| Span::new(self.moved(span.start()), self.moved(span.end()));
+            let span = moved(found.span);
             // Findings about objects are reported at one of their tokens.
             let token = tree.partition_point(|token| token.start() < span.start());
             let place = tree.get(token);
@@ -176,10 +177,7 @@ impl<'e> Change<'e> {
             if read.end <= token && self.old.len() != self.new.len() {
                 return None;
             }
-            kept.warning(|| Diagnostic {
-                span,
-                ..found.clone()
-            });
+            kept.warning(|| found.clone().moved(moved));
         }
         Some(kept)
     }

@@ -7,11 +7,11 @@ use super::reader::{Count, LEAST_NUMBERS, Numbers, Reader, component, is_word};
 use super::schema::{MATERIAL, ShapeKind};
 use crate::coefficients::Coefficients;
 use crate::record::{Record, what};
-use crate::report::{Name, did_you_mean, quoted};
+use crate::report::{Name, quoted};
 use geometry::Shape;
 use scene::blocks::BLOCK;
 use scene::{Material, Object};
-use text::{Diagnostic, Span, alternatives, counted};
+use text::{Diagnostic, Span, alternatives, counted, did_you_mean};
 
 /// Number of materials a new one is compared with. Colours come from short lists, or all differ.
 const MOST_COMPARED: usize = 32;
@@ -100,6 +100,7 @@ impl<'a> Reader<'a> {
                 let message = format!("{} should be in lower case", quoted(word));
                 Diagnostic::warning(token, message, format!("`{}`", kind.keyword()))
                     .with_hint("other readers of the format may refuse it")
+                    .with_fix(token, kind.keyword())
             });
         }
         self.at += 1;

@@ -1,12 +1,12 @@
 //! What a `.ray` text says: its [`SceneText`].
 
 use super::origins::distribute;
-use super::schema::{AMBIENT, LIGHT, VIEW};
+use super::schema::{AMBIENT, LIGHT, SCHEMA, VIEW};
 use super::tree::{begins_comment, comment_of_line};
 use super::view_comment::PLACES;
 use super::{Source, incremental, lower, memory_estimate, view};
 use crate::rendering::{self, Around};
-use crate::schema::Field;
+use crate::schema::{Field, Schema};
 use crate::view::Numbers;
 use crate::written::Since;
 use crate::{Before, FieldSpans, Lowered, Node, Nodes, SceneText, Visibility};
@@ -31,6 +31,10 @@ impl SceneText for Source {
         let (origins, lowered) = found?;
         self.place(origins);
         Some(lowered)
+    }
+
+    fn records(&self) -> Option<&'static Schema> {
+        Some(&SCHEMA)
     }
 
     fn leaves(&self) -> Vec<Span> {
@@ -167,23 +171,33 @@ impl SceneText for Source {
 impl Source {
     /// The words of the comment behind a node, on its first or last line.
     pub(super) fn label(&self, node: Node) -> Option<Span> {
-        let (text, tree) = (&*self.text, &self.tree);
-        let own = self.span(node);
-        if matches!(node, Node::View | Node::Render) || own.is_empty() {
+        if matches!(node, Node::View | Node::Render) {
             return None;
         }
-        let behind = |from: usize| {
-            let comment = comment_of_line(text, from)?;
-            let before = tree.partition_point(|token| token.end() <= comment.start());
-            let token = tree.get(before.checked_sub(1)?)?;
-            let follows = own.start() <= token.start() && token.end() <= own.end();
+        let text = &*self.text;
+        let own = self.origins.tokens(node);
+        let tokens = self.tree.range(own.start..own.end + 1);
+        let next = tokens.iter().skip(1).map(|token| token.start());
+        let gaps = tokens.iter().zip(next.chain([text.len()]));
+        let gaps = gaps.map(|(token, next)| Span::new(token.end(), next));
+        let gaps: Vec<_> = gaps.take(own.len()).collect();
+        // Other than tokens on the same line.
+        let rest = |gap: &Span| gap.of(text).trim_start_matches(BLANKS);
+        let behind = |gap: Span| {
+            let rest = rest(&gap);
+            let start = begins_comment(rest.as_bytes()).then_some(gap.end() - rest.len());
+            let comment = comment_of_line(text, start?)?;
             let has_meaning = self.origins.comments().any(|(_, of)| of == comment);
             let content = content_of(text, comment);
-            (follows && !content.is_empty() && !has_meaning).then_some(content)
+            (!content.is_empty() && !has_meaning).then_some(content)
         };
-        behind(own.start()).or_else(|| behind(own.end()))
+        let first = gaps.iter().find(|gap| !rest(gap).is_empty()).copied();
+        first.and_then(behind).or_else(|| behind(*gaps.last()?))
     }
 }
+
+/// White space that ends no line.
+const BLANKS: [char; 6] = [' ', '\t', '\u{B}', '\u{C}', '\u{A0}', '\u{FEFF}'];
 
 /// The words of a comment.
 fn content_of(text: &str, comment: Span) -> Span {

@@ -234,7 +234,9 @@ fn unknown_word(span: Span, word: &str) -> Diagnostic {
     let message = format!("view: unknown word {}", quoted(word));
     let diagnostic = Diagnostic::warning(span, message, alternatives(keys()));
     match keys().find(|key| key.eq_ignore_ascii_case(word)) {
-        Some(key) => diagnostic.with_hint(format!("write `{key}`")),
+        Some(key) => diagnostic
+            .with_hint(format!("write `{key}`"))
+            .with_fix(span, key),
         None => diagnostic,
     }
 }

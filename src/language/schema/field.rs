@@ -222,6 +222,19 @@ impl Range {
     }
 }
 
+/// A value that a text may state under a name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named {
+    /// The name.
+    pub name: &'static str,
+    /// The field that it is, or part of.
+    pub field: &'static Field,
+    /// Which of its components.
+    pub component: usize,
+    /// What holds where the text omits it.
+    pub default: String,
+}
+
 /// What the numbers of a field are in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Part {

@@ -10,7 +10,7 @@ use geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Solid, Sphere, normali
 
 /// The unit solids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Unit {
+pub enum Unit {
     /// A sphere with a single radius.
     Sphere,
     /// A sphere around the origin.

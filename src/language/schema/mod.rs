@@ -9,33 +9,34 @@ pub(crate) mod layout;
 pub(crate) mod position;
 pub(crate) mod slots;
 
-use layout::{Layout, Unit};
+use layout::Layout;
 use position::{At, is_same};
 
-pub use field::{Category, Field, Kind, Part, Range, SIZES};
+pub use field::{Category, Field, Kind, Named, Part, Range, SIZES};
+pub use layout::Unit;
 
 /// A kind of record. Two of one name are the same.
 #[derive(Debug)]
-pub(crate) struct Record {
+pub struct Record {
     /// The word for it, unique in its language: `sphere`.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// The words that begin it. Records that begin alike are told apart by the words in their slots.
-    pub(crate) heads: &'static [&'static str],
+    pub heads: &'static [&'static str],
     /// What such a record makes.
-    pub(crate) makes: Makes,
+    pub makes: Makes,
     /// What follows the words, in order.
-    pub(crate) slots: &'static [Slot],
+    pub slots: &'static [Slot],
     /// What follows that, as often as the record says.
-    pub(crate) repeat: Option<Repeat>,
+    pub repeat: Option<Repeat>,
     /// Whether a later one replaces it without a warning.
-    pub(crate) is_replaced: bool,
+    pub is_replaced: bool,
     /// Where its numbers place a unit solid; `None` for other records.
     pub(crate) layout: Option<Layout>,
 }
 
 /// What a record makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Makes {
+pub enum Makes {
     /// A part of the view, which a scene has once.
     View,
     /// A node.
@@ -52,7 +53,7 @@ pub(crate) enum Makes {
 
 /// A part of a record.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Slot {
+pub enum Slot {
     /// A fixed word.
     Word(&'static str),
     /// The ID by which other records refer to this one.
@@ -63,37 +64,37 @@ pub(crate) enum Slot {
 
 /// Slots that follow their count.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Repeat {
+pub struct Repeat {
     /// The noun for one.
-    pub(crate) noun: &'static str,
+    pub noun: &'static str,
     /// The slots of each.
-    pub(crate) slots: &'static [Slot],
+    pub slots: &'static [Slot],
     /// The maximum of their number.
-    pub(crate) most: usize,
+    pub most: usize,
     /// What none stands for.
-    pub(crate) none: &'static str,
+    pub none: &'static str,
     /// What each takes, in a sentence.
-    pub(crate) hint: &'static str,
+    pub hint: &'static str,
 }
 
 /// The records of a language.
 #[derive(Debug)]
-pub(crate) struct Schema {
+pub struct Schema {
     /// The extension of its files, without the dot.
-    pub(crate) extension: &'static str,
+    pub extension: &'static str,
     /// The noun for a record.
-    pub(crate) noun: &'static str,
+    pub noun: &'static str,
     /// Whether a record that breaks off is reported at its first word rather than at its end.
-    pub(crate) is_short_at_head: bool,
+    pub is_short_at_head: bool,
     /// Whether words may be in another case, with a warning.
-    pub(crate) any_case: bool,
+    pub any_case: bool,
     /// Its records, in the order of messages and of the view.
-    pub(crate) records: &'static [&'static Record],
+    pub records: &'static [&'static Record],
 }
 
 impl Slot {
     /// The number of tokens.
-    pub(crate) const fn tokens(&self) -> usize {
+    pub const fn tokens(&self) -> usize {
         match self {
             Self::Word(_) | Self::Id => 1,
             Self::Field(field) => field.kind.components(),
@@ -162,7 +163,7 @@ impl Record {
     }
 
     /// The category of the nodes that it makes.
-    pub(crate) const fn category(&self) -> Option<Category> {
+    pub const fn category(&self) -> Option<Category> {
         match self.makes {
             Makes::Node(category) => Some(category),
             Makes::Solid(_) => Some(Category::Object),
@@ -171,7 +172,7 @@ impl Record {
     }
 
     /// Its fields, in text order, without repeated ones.
-    pub(crate) fn fields(&self) -> impl Iterator<Item = &'static Field> + Clone + use<> {
+    pub fn fields(&self) -> impl Iterator<Item = &'static Field> + Clone + use<> {
         fields(self.slots)
     }
 

@@ -22,7 +22,27 @@ use text::{Diagnostic, Findings, Position, Severity, Span};
 pub(super) fn read_as(language: Language, text: &str, meshes: &Meshes) -> (Source, Lowered) {
     let mut source = Source::new(language, Arc::new(text.to_owned()));
     let lowered = source.lower(meshes).expect("there is memory for it");
+    // Of what is not XML, only the first error is known.
+    if !source.nodes().is_empty() {
+        for found in lowered.diagnostics.iter() {
+            check_fix(&source, found, &lowered.diagnostics);
+        }
+    }
     (source, lowered)
+}
+
+/// Checks that a fix mends its finding in whatever text a test reads.
+#[track_caller]
+fn check_fix(source: &Source, found: &Diagnostic, all: &Findings) {
+    if found.fix.is_empty() {
+        return;
+    }
+    let mut fixed = source.clone();
+    fixed.change(&found.fix);
+    let lowered = fixed.lower(&Meshes::default());
+    let after = lowered.expect("there is memory for it").diagnostics;
+    let is_mended = all.is_mended(found, &found.fix, &after);
+    assert!(is_mended, "{found:?}\n{}\n{}", source.text(), fixed.text());
 }
 
 /// The diagnostics as lines: `2:7 error: object 1 (sphere) radius: must be greater than 0`.

@@ -26,6 +26,7 @@ use text::Findings;
 use tree::Tree;
 
 pub use around_mesh::{ShownMesh, Up, around_mesh};
+pub use lower::{Tag, tag_at};
 pub(super) use memory_estimate::tree_bytes;
 pub(super) use write::write;
 

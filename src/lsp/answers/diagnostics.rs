@@ -17,7 +17,8 @@ pub(crate) fn published(document: &Document) -> Value {
     said
 }
 
-fn one(document: &Document, found: &Diagnostic) -> Value {
+/// A finding as the protocol has it.
+pub(super) fn one(document: &Document, found: &Diagnostic) -> Value {
     let severity = match found.severity {
         Severity::Error => 1,
         Severity::Warning => 2,
@@ -49,7 +50,7 @@ fn one(document: &Document, found: &Diagnostic) -> Value {
 }
 
 /// At least one character, where there is one: editors hide empty ranges.
-fn shown(document: &Document, span: Span) -> Span {
+pub(super) fn shown(document: &Document, span: Span) -> Span {
     if !span.is_empty() {
         return span;
     }

@@ -1,5 +1,6 @@
 //! What a field is, and what its value means.
 
+use language::Node;
 use language::schema::{Category, Field, Kind};
 use serde_json::{Value, json};
 use text::Span;
@@ -13,10 +14,10 @@ pub(crate) fn at(document: &Document, at: usize) -> Value {
     let Some(place) = document.place(at) else {
         return of_node(document, at);
     };
-    let (field, source) = (place.field(), &document.source);
+    let field = place.field();
     let component = field.kind.component_names()[place.component];
     let space = if component.is_empty() { "" } else { " " };
-    let name = source.name(place.node);
+    let name = called(document, place.node);
     let words = [
         Some(format!("**{name}** · `{}{space}{component}`", field.key)),
         Some(field.doc.to_owned()),
@@ -33,11 +34,11 @@ fn of_node(document: &Document, at: usize) -> Value {
     let Some(node) = document.source.node_at(Span::at(at)) else {
         return Value::Null;
     };
-    let name = document.source.name(node);
-    let title = match document.source.comment(node) {
-        Some(comment) => format!("**{name}** · {comment}\n"),
-        None => format!("**{name}**\n"),
-    };
+    let title = format!(
+        "**{}**{}\n",
+        called(document, node),
+        comment(document, node)
+    );
     let fields = document.source.fields(node).into_iter();
     let fields = fields.map(|placed| format!("- `{}` {}", placed.field.key, placed.field.doc));
     let said: Vec<_> = std::iter::once(title).chain(fields).collect();
@@ -52,6 +53,35 @@ fn answer(document: &Document, span: Span, said: &str) -> Value {
         "contents": { "kind": "markdown", "value": said },
         "range": document.range(span),
     })
+}
+
+/// The name of a node, as Markdown.
+fn called(document: &Document, node: Node) -> String {
+    escaped(&document.source.name(node))
+}
+
+/// The comment on a node, as Markdown behind its name; empty if there is none.
+fn comment(document: &Document, node: Node) -> String {
+    let comment = document.source.comment(node);
+    comment.map_or_else(String::new, |comment| format!(" · {}", escaped(comment)))
+}
+
+/// Words of the text in Markdown that shows them as they are, on one line.
+fn escaped(words: &str) -> String {
+    let mut escaped = String::with_capacity(words.len());
+    for c in words
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ")
+        .chars()
+    {
+        // Parentheses mean nothing without brackets.
+        if c.is_ascii_punctuation() && !"(),.:;/'?%@".contains(c) {
+            escaped.push('\\');
+        }
+        escaped.push(c);
+    }
+    escaped
 }
 
 /// The permitted values, with their unit.
@@ -78,9 +108,7 @@ fn value(document: &Document, place: &Place) -> Option<String> {
         }
         Kind::Reference(_) | Kind::Name(_) => {
             let node = names::target(document, place)?;
-            let comment = document.source.comment(node);
-            let comment = comment.map_or_else(String::new, |comment| format!(" · {comment}"));
-            Some(format!("{}{comment}", document.source.name(node)))
+            Some(called(document, node) + &comment(document, node))
         }
         _ => None,
     }
@@ -92,7 +120,7 @@ fn users(document: &Document, place: &Place) -> Option<String> {
         0 | 1 => None,
         count => Some(format!(
             "{} is used {count} times",
-            document.source.name(place.node)
+            called(document, place.node)
         )),
     }
 }

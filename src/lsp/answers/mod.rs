@@ -1,5 +1,6 @@
 //! What the server answers about an open text.
 
+pub(crate) mod actions;
 pub(crate) mod colours;
 pub(crate) mod completion;
 pub(crate) mod diagnostics;

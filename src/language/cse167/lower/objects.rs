@@ -414,6 +414,7 @@ impl Lowering<'_> {
                 self.reader.report.warning(|| {
                     let message = format!("{name}: declares {most}, but there are {count}");
                     Diagnostic::warning(span, message, "as many as there are, or more")
+                        .with_fix(span, count.to_string())
                 });
             }
         }

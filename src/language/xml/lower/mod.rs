@@ -9,10 +9,13 @@ mod meshes;
 mod objects;
 mod roles;
 mod surfaces;
+mod tag;
 mod textures;
 mod values;
 
 use std::collections::{HashMap, HashSet};
+
+pub use tag::{Tag, tag_at};
 
 use super::origins::Origins;
 use super::tree::Tree;
@@ -23,22 +26,7 @@ use text::{Diagnostic, Findings, Span};
 
 /// Lowers a text.
 pub(super) fn lower(text: &str, tree: &Tree, meshes: &Meshes) -> (Origins, Lowered) {
-    let mut lowering = Lowering {
-        text,
-        tree,
-        meshes,
-        report: Findings::default(),
-        origins: Origins::default(),
-        lights: Vec::new(),
-        materials: Vec::new(),
-        textures: Vec::new(),
-        named: HashMap::new(),
-        white: None,
-        reported_meshes: HashSet::new(),
-        slots: HashMap::new(),
-        objects: Vec::new(),
-        setting: Setting::default(),
-    };
+    let mut lowering = Lowering::new(text, tree, meshes);
     if let Some(fault) = &tree.fault {
         lowering.report.error(|| fault.clone());
     }
@@ -72,7 +60,26 @@ struct Lowering<'a> {
     setting: Setting,
 }
 
-impl Lowering<'_> {
+impl<'a> Lowering<'a> {
+    fn new(text: &'a str, tree: &'a Tree, meshes: &'a Meshes) -> Self {
+        Self {
+            text,
+            tree,
+            meshes,
+            report: Findings::default(),
+            origins: Origins::default(),
+            lights: Vec::new(),
+            materials: Vec::new(),
+            textures: Vec::new(),
+            named: HashMap::new(),
+            white: None,
+            reported_meshes: HashSet::new(),
+            slots: HashMap::new(),
+            objects: Vec::new(),
+            setting: Setting::default(),
+        }
+    }
+
     /// Reads everything; `None` if there is nothing to read.
     fn read(&mut self) -> Option<Scene> {
         self.find_roles();

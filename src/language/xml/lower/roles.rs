@@ -4,12 +4,13 @@ use std::collections::HashMap;
 
 use super::Lowering;
 use crate::node::Node;
+use crate::rendering::settings;
 use crate::report::quoted;
-use crate::schema::Category;
+use crate::schema::{Category, Named};
 use crate::xml::origins::{Place, Role};
-use crate::xml::parameter::{Attributes, Class, Parameter, Type};
+use crate::xml::parameter::{Attributes, Class, Parameter, Single, Type};
 use crate::xml::schema::{
-    BACKGROUND, CAMERA, CHECKER, CLASSES, ENVIRONMENT, GAMMA, TRANSFORMS, class_of,
+    BACKGROUND, CAMERA, CHECKER, CLASSES, ENVIRONMENT, GAMMA, TEXTURE, TRANSFORMS, class_of,
 };
 use text::{Diagnostic, Span, nearest_word, visible};
 
@@ -167,9 +168,10 @@ impl<'a> Lowering<'a> {
         if found.is_none() {
             let name = self.name(element);
             let types: Vec<_> = class.kinds.iter().map(|kind| kind.word).collect();
-            let hint = meaning(class.hint, nearest_word(word, types.iter().copied()));
+            let nearest = nearest_word(word, types.iter().copied());
             let message = || format!("{name}: unknown type {}", quoted(word));
-            self.warn(attribute.value, message, &types.join(" or "), &hint);
+            let expected = types.join(" or ");
+            self.mistaken(&[attribute.value], message, &expected, class.hint, nearest);
         }
         found.or(class.otherwise)
     }
@@ -177,17 +179,20 @@ impl<'a> Lowering<'a> {
     fn unknown(&mut self, element: usize, parent: usize) {
         let (name, outer) = (quoted(self.name(element)), quoted(self.name(parent)));
         let known = self.known_in(parent);
+        let known: Vec<_> = known.into_iter().map(|(name, _)| name).collect();
         let nearest = nearest_word(self.name(element), known.iter().copied());
         let mut places = [("xml", &IN_ROOT[..]), ("scene", &IN_SCENE)].into_iter();
         let place = places.find(|(_, words)| words.contains(&self.name(element)));
         let hint = match (place, nearest) {
             (Some((place, _)), _) => format!("it is skipped; it belongs in `{place}`"),
             (None, None) => "it is skipped with all its content".to_owned(),
-            (None, nearest) => meaning(SKIPPED, nearest),
+            (None, Some(_)) => SKIPPED.to_owned(),
         };
         let expected = listed(&known, "nothing");
         let message = || format!("{name}: unknown in {outer}");
-        self.warn(self.place(element), message, &expected, &hint);
+        let nearest = nearest.filter(|_| place.is_none());
+        let names = self.tree.elements[element].names();
+        self.mistaken(&names, message, &expected, &hint, nearest);
     }
 
     /// The parameters of an element.
@@ -200,8 +205,8 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// The known children of an element, for messages.
-    fn known_in(&self, parent: usize) -> Vec<&'static str> {
+    /// The known children of an element, and what they are.
+    pub(super) fn known_in(&self, parent: usize) -> Vec<(&'static str, &'static str)> {
         let parent = self.origins.roles[parent];
         let parameters = self.parameters_in(parent).iter();
         let parameters = parameters.chain(transforms_in(parent));
@@ -212,9 +217,56 @@ impl<'a> Lowering<'a> {
             _ => &[],
         };
         parameters
-            .map(|known| known.element)
-            .chain(others.iter().copied())
+            .map(|known| (known.element, known.field.doc))
+            .chain(others.iter().map(|&name| (name, "")))
             .collect()
+    }
+
+    /// The known attributes of an element.
+    pub(super) fn known_attributes(&self, element: usize) -> Vec<Named> {
+        let single = |single: &'static Single| Named {
+            name: single.attribute,
+            field: &single.field,
+            component: 0,
+            default: single.missing(self.origins.transfer).to_owned(),
+        };
+        match self.origins.roles[element] {
+            Role::Skipped | Role::Root | Role::Scene => Vec::new(),
+            Role::Node(Node::Render) => settings(),
+            Role::Node(Node::View) => vec![single(&GAMMA)],
+            Role::Node(node) => {
+                let class = node.category().and_then(|(category, _)| class_of(category));
+                class
+                    .map_or(&[][..], |class| class.words)
+                    .iter()
+                    .map(single)
+                    .collect()
+            }
+            Role::Transform(parameter) | Role::Parameter(parameter) => {
+                let is_turn = parameter.reading == Attributes::Rotation;
+                let names = parameter.reading.attributes().iter().copied().enumerate();
+                let numbers = names
+                    .chain(is_turn.then_some((3, "value")))
+                    .map(|(at, name)| {
+                        let own = &parameter.field;
+                        let is_own = at < own.kind.components();
+                        Named {
+                            name,
+                            field: if is_own { own } else { &parameter.scaled },
+                            component: at,
+                            default: parameter.inside(name).to_owned(),
+                        }
+                    });
+                let texture = parameter.may_have_texture.then(|| Named {
+                    name: TEXTURE.key,
+                    field: &TEXTURE,
+                    component: 0,
+                    default: String::new(),
+                });
+                let extras = parameter.extras.iter().copied().map(single);
+                numbers.chain(extras).chain(texture).collect()
+            }
+        }
     }
 
     /// Warns of a parameter overridden by a later one.
@@ -231,7 +283,8 @@ impl<'a> Lowering<'a> {
         if matches!(role, Role::Skipped | Role::Node(Node::Render)) {
             return;
         }
-        let known = known_attributes(role);
+        let known = self.known_attributes(element).into_iter();
+        let known: Vec<_> = known.map(|known| known.name).collect();
         for at in self.tree.elements[element].attributes() {
             let place = self.tree.attributes[at].name;
             let word = place.of(self.text);
@@ -240,11 +293,29 @@ impl<'a> Lowering<'a> {
             }
             let name = quoted(self.name(element));
             let nearest = nearest_word(word, known.iter().copied());
-            let hint = meaning(SKIPPED, nearest);
             let expected = listed(&known, "no attribute");
             let message = || format!("attribute {}: unknown in {name}", quoted(word));
-            self.warn(place, message, &expected, &hint);
+            self.mistaken(&[place], message, &expected, SKIPPED, nearest);
         }
+    }
+
+    /// Warns of a word at these places, the first of which is shown. `hint` says what becomes of it, and
+    /// `nearest` is the word that was probably meant.
+    fn mistaken(
+        &mut self,
+        places: &[Span],
+        message: impl FnOnce() -> String,
+        expected: &str,
+        hint: &str,
+        nearest: Option<&str>,
+    ) {
+        self.report.warning(|| {
+            let question = nearest.map(|word| format!("; did you mean `{word}`?"));
+            let hint = format!("{hint}{}", question.unwrap_or_default());
+            let warning = Diagnostic::warning(places[0], message(), expected).with_hint(hint);
+            let fixes = places.iter().zip(nearest.iter().cycle());
+            fixes.fold(warning, |all, (place, word)| all.with_fix(*place, *word))
+        });
     }
 
     /// Warns of text between tags.
@@ -268,14 +339,6 @@ impl<'a> Lowering<'a> {
                 Diagnostic::warning(span, message, "elements").with_hint(hint)
             });
         }
-    }
-}
-
-/// What becomes of something, and the word that was probably meant.
-fn meaning(hint: &str, nearest: Option<&str>) -> String {
-    match nearest {
-        Some(nearest) => format!("{hint}; did you mean `{nearest}`?"),
-        None => hint.to_owned(),
     }
 }
 
@@ -305,28 +368,4 @@ fn shown(name: &str) -> Box<str> {
         shown.push('…');
     }
     visible(&shown).into()
-}
-
-/// The known attributes of an element.
-fn known_attributes(role: Role) -> Vec<&'static str> {
-    match role {
-        Role::Skipped | Role::Root | Role::Scene => Vec::new(),
-        Role::Node(Node::View) => vec![GAMMA.attribute],
-        Role::Node(node) => {
-            let class = node.category().and_then(|(category, _)| class_of(category));
-            let words = class.map_or(&[][..], |class| class.words);
-            words.iter().map(|word| word.attribute).collect()
-        }
-        Role::Transform(parameter) | Role::Parameter(parameter) => {
-            let mut known = parameter.reading.attributes().to_vec();
-            if parameter.reading == Attributes::Rotation {
-                known.push("value");
-            }
-            known.extend(parameter.extras.iter().map(|extra| extra.attribute));
-            if parameter.may_have_texture {
-                known.push("texture");
-            }
-            known
-        }
-    }
 }

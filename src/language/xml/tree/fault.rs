@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use roxmltree::{Error, TextPos};
 
-use text::{Diagnostic, Span};
+use text::{Diagnostic, Span, nearest_word};
 
 /// The diagnostic for an error of the parser, at the place it is about.
 pub(super) fn diagnostic(text: &str, error: &Error, unclosed: Option<Span>) -> Diagnostic {
@@ -14,22 +14,28 @@ pub(super) fn diagnostic(text: &str, error: &Error, unclosed: Option<Span>) -> D
     match error {
         Error::UnexpectedCloseTag(expected, actual, _) => {
             let message = format!("`</{actual}>` does not close `<{expected}>`, which is open");
-            Diagnostic::error(until(text, at, '>'), message, format!("`</{expected}>`"))
+            let (tag, right) = (until(text, at, '>'), format!("</{expected}>"));
+            let is_misspelt = nearest_word(actual, [&**expected]).is_some();
+            let place = if is_misspelt { tag } else { Span::at(at) };
+            Diagnostic::error(tag, message, format!("`{right}`")).with_fix(place, right)
         }
         Error::UnknownEntityReference(name, _) => Diagnostic::error(
             until(text, at, ';'),
             format!("`&{name};` is not known"),
             "&amp; &lt; &gt; &quot; &apos; or the number of a character",
         )
-        .with_hint("a literal & is written &amp;"),
+        .with_hint("a literal & is written &amp;")
+        .with_fix(here, "&amp;"),
         Error::MalformedEntityReference(_) => Diagnostic::error(
             here,
             "`&` does not begin a reference to a character that XML allows",
             "`&amp;` for a literal &, or the number of a character, such as `&#65;`",
-        ),
+        )
+        .with_fix(here, "&amp;"),
         Error::InvalidAttributeValue(_) | Error::InvalidChar(b'"' | b'\'', b'<', _) => {
             Diagnostic::error(here, "`<` in an attribute value", "`&lt;` for a literal <")
                 .with_hint("or the closing quote of the value is missing")
+                .with_fix(here, "&lt;")
         }
         Error::DuplicatedAttribute(name, _) => Diagnostic::error(
             word(text, at),

@@ -77,6 +77,14 @@ impl Element {
         self.tag == self.whole
     }
 
+    /// Its name wherever it stands: in the start tag, and in the end tag if there is one.
+    pub(crate) fn names(&self) -> Vec<Span> {
+        let start = self.close as usize + "</".len();
+        let end = Span::new(start, start + self.name.len());
+        let end = (!self.is_empty_tag()).then_some(end);
+        [self.name].into_iter().chain(end).collect()
+    }
+
     /// The indices of its attributes.
     pub(crate) fn attributes(&self) -> Range<usize> {
         self.first_attribute as usize..self.end_attribute as usize
@@ -170,8 +178,8 @@ impl Parse for Tree {
     /// Parses elements and comments. Refuses document type declarations, and entities with them.
     fn parse(text: &str) -> Self {
         let mut tree = Self::default();
-        let read = scan::scan(text).and_then(|unclosed| {
-            document(text).map_err(|error| fault::diagnostic(text, &error, unclosed))
+        let read = scan::scan(text).and_then(|mut open| {
+            document(text).map_err(|error| fault::diagnostic(text, &error, open.pop()))
         });
         match read {
             Ok(document) => tree.fill(text, &document),
@@ -207,6 +215,14 @@ fn document(text: &str) -> Result<Document<'_>, Error> {
         ..ParsingOptions::default()
     };
     Document::parse_with_options(text, options)
+}
+
+/// The tag that a place is in, from its `<` to its name, behind the elements that it is in.
+pub(super) fn open_tag(text: &str, at: usize) -> Option<(Vec<Span>, Span)> {
+    let mut open = scan::scan(&text[..at]).ok()?;
+    let tag = open.pop()?;
+    let end = scan::tag_end(text, tag.start() + 1);
+    (at < end || !text[..end].ends_with('>')).then_some((open, tag))
 }
 
 /// The quote that delimits a value.

@@ -12,13 +12,13 @@ const MOST_NAME_SPACES: usize = 64;
 /// Maximum nesting depth of elements, far more than in any scene.
 const MOST_LEVELS: usize = 1 << 17;
 
-/// Scans a text; returns the innermost element that is never closed, by its `<` and name. Skips
-/// anything that is not XML.
+/// Scans a text; returns the elements that are never closed, by their `<` and names, the innermost last.
+/// Skips anything that is not XML.
 ///
 /// # Errors
 ///
 /// Fails at what is refused.
-pub(super) fn scan(text: &str) -> Result<Option<Span>, Diagnostic> {
+pub(super) fn scan(text: &str) -> Result<Vec<Span>, Diagnostic> {
     let mut open: Vec<Span> = Vec::new();
     let mut name_spaces = 0;
     let mut at = 0;
@@ -72,7 +72,7 @@ pub(super) fn scan(text: &str) -> Result<Option<Span>, Diagnostic> {
             end
         };
     }
-    Ok(open.pop())
+    Ok(open)
 }
 
 /// The end of a tag, after its `>`, from an offset inside the tag but not between quotes.
