@@ -7,7 +7,6 @@
 mod answers;
 mod document;
 mod inbox;
-mod linked;
 mod positions;
 mod server;
 mod setup;

@@ -1,5 +1,8 @@
 //! The session with one editor.
 
+mod hearing;
+mod links;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 use std::mem;
@@ -8,7 +11,7 @@ use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
 use language::Language;
-use link::{ToEditor, ToInterface};
+use links::Links;
 use serde_json::{Value, json};
 use text::{Findings, Span};
 
@@ -16,7 +19,6 @@ use crate::answers::{
     actions, colours, completion, diagnostics, hints, hover, names, outline, tokens,
 };
 use crate::document::{Document, LONGEST};
-use crate::linked::{self, Links};
 use crate::positions::Encoding;
 use crate::{Event, uri, wire};
 
@@ -152,72 +154,6 @@ impl<W: Write> Server<W> {
         wire::write(&mut self.output, &answer)
     }
 
-    /// Takes the editor's answer to a request.
-    fn answered(&mut self, id: &Value, message: &Value) {
-        let asked = id.as_u64().and_then(|id| self.asked.remove(&id));
-        if let Some((uri, base)) = asked {
-            let is_made = message["result"]["applied"] == true;
-            self.links.tell(&uri, &ToInterface::Answer(base, is_made));
-        }
-    }
-
-    /// Handles a message from the interface that shows a document; `None` if it is gone.
-    pub(crate) fn hear(
-        &mut self,
-        uri: &str,
-        connection: u64,
-        message: Option<ToEditor>,
-    ) -> io::Result<()> {
-        let document = self.documents.get(uri);
-        let (true, Some(document)) = (self.links.is_present(uri, connection), document) else {
-            return Ok(());
-        };
-        let is_span = |span: Span| document.text().get(span.range()).is_some();
-        match message {
-            None => self.links.left(uri),
-            Some(ToEditor::Whole) => self.links.tell_whole(document),
-            Some(ToEditor::Busy(editor)) => {
-                self.links.is_busy(uri);
-                let name = document.path().file_name().unwrap_or_default();
-                let name = name.to_string_lossy().into_owned();
-                let words = format!("the interface follows {editor}, which has {name} open too");
-                return self.show(3, &words);
-            }
-            Some(ToEditor::Show { span, takes_focus }) if is_span(span) => {
-                let selection = document.range(span);
-                let place = json!({ "uri": uri, "takeFocus": takes_focus, "selection": selection });
-                self.ask("window/showDocument", &place)?;
-            }
-            Some(ToEditor::Edit(base, edits)) => {
-                let is_valid = edits.iter().all(|edit| is_span(edit.span));
-                if !is_valid || self.links.version(uri) != Some(base) {
-                    self.links.tell(uri, &ToInterface::Answer(base, false));
-                    return Ok(());
-                }
-                let edit = if self.has_versioned_edits {
-                    document.versioned_edit(&edits)
-                } else {
-                    document.workspace_edit(&edits)
-                };
-                let parameters = json!({ "label": "Halflight", "edit": edit });
-                let request = self.ask("workspace/applyEdit", &parameters)?;
-                self.asked.insert(request, (uri.to_owned(), base));
-            }
-            // A place in another text.
-            Some(ToEditor::Show { .. }) => {}
-        }
-        Ok(())
-    }
-
-    /// Asks the editor for something; returns the number of the request.
-    fn ask(&mut self, method: &str, parameters: &Value) -> io::Result<u64> {
-        self.requests += 1;
-        let id = self.requests;
-        let message = json!({ "jsonrpc": "2.0", "id": id, "method": method, "params": parameters });
-        wire::write(&mut self.output, &message)?;
-        Ok(id)
-    }
-
     /// Handles a notification. An unknown or malformed one has no effect.
     fn notification(&mut self, method: &str, parameters: &Value) -> io::Result<()> {
         let document = &parameters["textDocument"];
@@ -344,17 +280,6 @@ impl<W: Write> Server<W> {
         wire::write(&mut self.output, &message)
     }
 
-    /// Tells the interface where the cursor is: highlights are asked for where it rests.
-    fn note_cursor(&mut self, method: &str, parameters: &Value) {
-        let uri = parameters["textDocument"]["uri"].as_str().unwrap_or("");
-        if method == "textDocument/documentHighlight"
-            && let Some(document) = self.documents.get(uri)
-            && let Some(at) = document.offset(&parameters["position"])
-        {
-            self.links.tell(uri, &ToInterface::Cursor(at));
-        }
-    }
-
     fn answer(&mut self, method: &str, parameters: &Value) -> Result<Value, Refusal> {
         match (method, self.state) {
             ("initialize", State::Begun) => {
@@ -362,7 +287,7 @@ impl<W: Write> Server<W> {
                 self.encoding = Encoding::of_client(known);
                 let changes = &parameters["capabilities"]["workspace"]["workspaceEdit"];
                 self.has_versioned_edits = changes["documentChanges"] == true;
-                let (editor, can, follow) = linked::of_client(parameters);
+                let (editor, can, follow) = links::of_client(parameters);
                 (self.links.editor, self.links.can, self.links.follow) = (editor, can, follow);
                 self.state = State::Running;
                 Ok(capabilities(self.encoding))

@@ -9,6 +9,7 @@ mod conversions;
 pub mod corpus;
 mod cse167;
 mod dat;
+mod editor;
 #[path = "../harness/mod.rs"]
 mod harness;
 mod making;

@@ -1,62 +1,17 @@
 //! The program as a language server.
 
-use std::io::{BufRead, BufReader, Read, Write};
-use std::process::{Child, Stdio};
-
 use serde_json::{Value, json};
 
 use super::Place;
-
-/// An editor's end of a session.
-struct Editor {
-    server: Child,
-    answers: Box<dyn BufRead>,
-}
-
-impl Editor {
-    fn start(place: &Place) -> Self {
-        let mut command = place.command("lsp");
-        command.stdin(Stdio::piped()).stdout(Stdio::piped());
-        let mut server = command.stderr(Stdio::piped()).spawn().expect("it starts");
-        let output = server.stdout.take().expect("a pipe");
-        let answers = Box::new(BufReader::new(output));
-        Self { server, answers }
-    }
-
-    fn send(&mut self, message: &Value) {
-        let body = message.to_string();
-        let input = self.server.stdin.as_mut().expect("a pipe");
-        write!(input, "Content-Length: {}\r\n\r\n{body}", body.len()).expect("it listens");
-    }
-
-    fn receive(&mut self) -> Value {
-        let mut header = String::new();
-        self.answers.read_line(&mut header).expect("a header");
-        let length = header.trim().strip_prefix("Content-Length: ");
-        let length: usize = length.expect("only messages").parse().expect("a length");
-        let mut body = vec![0; length + 2];
-        self.answers.read_exact(&mut body).expect("a message");
-        serde_json::from_slice(&body).expect("JSON")
-    }
-
-    fn end(mut self) -> (Option<i32>, String) {
-        drop(self.server.stdin.take());
-        let mut rest = Vec::new();
-        self.answers.read_to_end(&mut rest).expect("readable");
-        assert!(rest.is_empty(), "nothing but messages");
-        let ended = self.server.wait_with_output().expect("it ends");
-        let said = String::from_utf8(ended.stderr).expect("UTF-8");
-        (ended.status.code(), said)
-    }
-}
+use crate::editor::{Editor, uri};
 
 /// Meshes are looked for beside the scene, as `check` does.
 #[test]
 fn an_editor_is_told_what_check_says() {
     let place = Place::new();
     place.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    let mut editor = Editor::start(&place);
-    let uri = format!("file://{}", place.at("a.xml").display());
+    let mut editor = Editor::start(place.command("lsp"));
+    let uri = uri(&place.at("a.xml"));
     let object =
         |name: &str| format!("<xml><scene><object type=\"obj\" name=\"{name}\"/></scene></xml>\n");
     editor.send(&json!({ "id": 1, "method": "initialize", "params": {} }));
@@ -83,16 +38,13 @@ fn an_editor_is_told_what_check_says() {
 #[test]
 fn a_session_that_breaks_off_is_an_error() {
     let place = Place::new();
-    let mut editor = Editor::start(&place);
+    let mut editor = Editor::start(place.command("lsp"));
     editor.send(&json!({ "id": 1, "method": "initialize", "params": {} }));
     editor.receive();
     let said = "halflight lsp: the editor disconnected without a `shutdown` request\n".to_owned();
     assert_eq!(editor.end(), (Some(1), said));
-    let mut editor = Editor::start(&place);
-    let input = editor.server.stdin.as_mut().expect("a pipe");
-    input
-        .write_all(b"GET / HTTP/1.1\r\n\r\n")
-        .expect("it listens");
+    let mut editor = Editor::start(place.command("lsp"));
+    editor.send_bytes(b"GET / HTTP/1.1\r\n\r\n");
     let (code, said) = editor.end();
     assert_eq!(code, Some(1));
     assert!(said.contains("not `GET / HTTP/1.1`"), "{said}");

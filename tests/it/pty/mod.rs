@@ -1,5 +1,6 @@
 //! The interface on a terminal, from the first key to the restored screen.
 
+mod buffers;
 mod editing;
 mod endings;
 mod journals;

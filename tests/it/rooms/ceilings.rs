@@ -66,8 +66,8 @@ const ROOMS: &[(&str, usize)] = &[
     ("track", 1700),
     // Each room lists what others may call, and each function the state it changes. Frames, base64 and
     // the nearest of few colours take a hundred lines, for ten dependencies. An editor's buffer in place of the
-    // file takes seven hundred, and pictures that tmux moves two hundred.
-    ("ui", 30900),
+    // file takes eight hundred, and pictures that tmux moves two hundred.
+    ("ui", 31000),
 ];
 
 /// The most methods on the interface's state; everything else is a function in the room that does it.
