@@ -12,6 +12,6 @@ mod stream;
 mod tests;
 
 pub use listening::{Heard, Listening, listen};
-pub use messages::{Abilities, Follow, Opening, ToEditor, ToInterface};
-pub use place::{Place, names};
-pub use stream::{Receiver, Sender, connect};
+pub use messages::{Abilities, Follow, Opening, Shown, ToEditor, ToInterface};
+pub use place::{Place, sockets};
+pub use stream::{Receiver, Sender, connect, shown};

@@ -69,6 +69,8 @@ pub enum ToInterface {
     Cursor(usize),
     /// The answer to [`ToEditor::Edit`] of this version: whether the editor says that it made the edits.
     Answer(u64, bool),
+    /// Asks what is shown, and whose buffer; from whoever connects.
+    Who,
 }
 
 /// A message from the interface to the editor's server.
@@ -87,6 +89,17 @@ pub enum ToEditor {
     Whole,
     /// The interface shows the buffer of another editor, of this name.
     Busy(String),
+    /// The answer to [`ToInterface::Who`].
+    Shown(Shown),
+}
+
+/// What an interface shows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Shown {
+    /// The path of the scene.
+    pub scene: String,
+    /// The short name of the editor that has it open.
+    pub editor: Option<String>,
 }
 
 impl ToInterface {
@@ -108,6 +121,7 @@ impl ToInterface {
             Self::Close => json!({ "close": {} }),
             Self::Cursor(at) => json!({ "cursor": { "at": at } }),
             Self::Answer(base, is_made) => json!({ "answer": { "base": base, "made": is_made } }),
+            Self::Who => json!({ "who": {} }),
         }
     }
 
@@ -130,6 +144,7 @@ impl ToInterface {
             "close" => Self::Close,
             "cursor" => Self::Cursor(offset(&body["at"])?),
             "answer" => Self::Answer(body["base"].as_u64()?, body["made"].as_bool()?),
+            "who" => Self::Who,
             _ => return None,
         })
     }
@@ -147,6 +162,9 @@ impl ToEditor {
             }
             Self::Whole => json!({ "whole": {} }),
             Self::Busy(editor) => json!({ "busy": { "editor": editor } }),
+            Self::Shown(Shown { scene, editor }) => {
+                json!({ "shown": { "scene": scene, "editor": editor } })
+            }
         }
     }
 
@@ -161,6 +179,10 @@ impl ToEditor {
             },
             "whole" => Self::Whole,
             "busy" => Self::Busy(body["editor"].as_str()?.to_owned()),
+            "shown" => Self::Shown(Shown {
+                scene: body["scene"].as_str()?.to_owned(),
+                editor: body["editor"].as_str().map(str::to_owned),
+            }),
             _ => return None,
         })
     }

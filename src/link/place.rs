@@ -53,7 +53,7 @@ impl Place {
 /// # Errors
 ///
 /// Fails if others can write to the folder, or if there can be none.
-pub fn names() -> io::Result<Vec<PathBuf>> {
+pub fn sockets() -> io::Result<Vec<PathBuf>> {
     let Some(folder) = Folder::find(&around()?, Store::Sockets)? else {
         return Ok(Vec::new());
     };

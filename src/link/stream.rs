@@ -8,12 +8,13 @@ use std::time::Duration;
 
 use serde_json::Value;
 
+use super::messages::{Shown, ToEditor, ToInterface};
 use super::place::Place;
 
 /// The maximum length of a line, in bytes.
 const LONGEST: u64 = 1 << 29;
 
-/// How long a write may wait for a peer that does not read.
+/// How long a write may wait for a peer that does not read, and an answer for one that does not write.
 const PATIENCE: Duration = Duration::from_millis(200);
 
 /// The end that messages are sent to.
@@ -35,6 +36,19 @@ pub fn connect(scene: &Path) -> io::Result<(Sender, Receiver)> {
 
 pub(crate) fn connect_to(place: &Place) -> io::Result<(Sender, Receiver)> {
     ends(UnixStream::connect(place.folder.short_place(&place.name))?)
+}
+
+/// What the interface shows that listens on a socket; `None` if none answers.
+pub fn shown(socket: &Path) -> Option<Shown> {
+    let stream = UnixStream::connect(socket).ok()?;
+    stream.set_read_timeout(Some(PATIENCE)).ok()?;
+    let (mut sender, mut receiver) = ends(stream).ok()?;
+    sender.send(&ToInterface::Who.to_json()).ok()?;
+    let answer = receiver.receive().ok().flatten()?;
+    match ToEditor::of_json(&answer)? {
+        ToEditor::Shown(shown) => Some(shown),
+        _ => None,
+    }
 }
 
 /// Whether something listens on a socket.

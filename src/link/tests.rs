@@ -66,6 +66,7 @@ fn to_interface() -> Vec<ToInterface> {
         ToInterface::Close,
         ToInterface::Cursor(u32::MAX as usize),
         ToInterface::Answer(4, false),
+        ToInterface::Who,
     ]
 }
 
@@ -92,6 +93,10 @@ fn messages_arrive_as_they_were_sent() {
         ToEditor::Show { span, takes_focus },
         ToEditor::Whole,
         ToEditor::Busy("hx".to_owned()),
+        ToEditor::Shown(Shown {
+            scene: "/a.ray".to_owned(),
+            editor: None,
+        }),
     ] {
         back.send(&message.to_json()).expect("it is connected");
         let received = receiver.receive().expect("it is connected");

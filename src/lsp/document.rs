@@ -98,6 +98,7 @@ impl Document {
     pub(crate) fn change(&mut self, changes: &[Value]) -> Result<Option<Edit>, InvalidChange> {
         let mut text = self.text().to_owned();
         let mut lines = self.lines.clone();
+        let mut changed = Vec::new();
         for change in changes {
             let Some(new) = change.get("text").and_then(Value::as_str) else {
                 return Err(InvalidChange);
@@ -110,10 +111,20 @@ impl Document {
             else {
                 return Err(InvalidChange);
             };
-            text.replace_range(span.range(), new);
-            lines = Lines::of(&text);
+            let edit = smallest_edit(span.of(&text), new).map(|edit| Edit {
+                span: edit.span.shifted(span.start()),
+                ..edit
+            });
+            if let Some(edit) = edit {
+                text.replace_range(edit.span.range(), &edit.text);
+                lines.follow(&text, &edit);
+                changed.push(edit);
+            }
         }
-        let edit = smallest_edit(self.source.text(), &text);
+        let edit = match changed.as_slice() {
+            [] | [_] => changed.pop(),
+            _ => smallest_edit(self.source.text(), &text),
+        };
         if let Some(edit) = &edit {
             self.source.substitute(Arc::new(text), edit);
             self.lines = lines;
@@ -197,9 +208,14 @@ impl Document {
         json!({ "range": self.range(edit.span), "newText": edit.text })
     }
 
+    /// Whether lowering it takes longer than a key may wait.
+    pub(crate) fn is_long(&self) -> bool {
+        MOST_SERVED < self.text().len()
+    }
+
     /// Whether its nodes are asked for: not in long texts.
     pub(crate) fn is_served(&self) -> bool {
-        self.is_scene && self.text().len() <= MOST_SERVED
+        self.is_scene && !self.is_long()
     }
 
     /// The field that states something at an offset.
@@ -269,7 +285,13 @@ mod tests {
             random ^= random << 17;
             (random >> 11) as usize % count
         };
-        for encoding in [Encoding::Utf8, Encoding::Utf16, Encoding::Utf32] {
+        let ascii = PIECES.map(|piece| if piece.is_ascii() { piece } else { "\r" });
+        for (encoding, pieces) in [
+            (Encoding::Utf8, PIECES),
+            (Encoding::Utf16, PIECES),
+            (Encoding::Utf32, PIECES),
+            (Encoding::Utf16, ascii),
+        ] {
             let path = PathBuf::from("/none/a.test");
             let file = (path, Language::Cse167);
             let mut document = Document::new(
@@ -294,7 +316,7 @@ mod tests {
                 if !is_end(span.end(), &plain) {
                     continue;
                 }
-                let piece = PIECES[below(PIECES.len())];
+                let piece = pieces[below(pieces.len())];
                 let change = if below(40) == 0 {
                     plain = TEXT.to_owned();
                     json!({ "text": TEXT })
@@ -305,6 +327,7 @@ mod tests {
                 };
                 document.change(&[change]).expect("valid");
                 assert_eq!(document.text(), plain);
+                assert_eq!(document.lines, Lines::of(&plain));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Offsets in a text as lines and characters, counted as the client counts.
 
 use serde_json::{Value, json};
-use text::{Span, line_end};
+use text::{Edit, Span, line_end};
 
 /// What a client counts as one character.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -68,8 +68,19 @@ impl Encoding {
 /// The number of bytes whose characters are counted together, since lines may be long.
 const BLOCK: usize = 1024;
 
+/// Where the line behind that of an offset begins, if there is one.
+fn next_line(text: &str, at: usize) -> Option<usize> {
+    let end = line_end(text, at);
+    let length = match &text.as_bytes()[end..] {
+        [] => return None,
+        [b'\r', b'\n', ..] => 2,
+        _ => 1,
+    };
+    Some(end + length)
+}
+
 /// Where the lines of a text begin. CR LF, LF and CR end a line, as in the protocol.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Lines {
     starts: Vec<u32>,
     /// Whether all characters are one byte, so that none need be counted.
@@ -91,21 +102,39 @@ impl Lines {
             sums = [sums[0] + lengths[0], sums[1] + lengths[1]];
         }
         before.extend((!is_ascii).then_some(sums));
-        loop {
-            let end = line_end(text, at);
-            if end == text.len() {
-                return Self {
-                    starts,
-                    is_ascii,
-                    before,
-                };
-            }
-            at = end + 1;
-            if text.as_bytes()[end..].starts_with(b"\r\n") {
-                at += 1;
-            }
+        while let Some(next) = next_line(text, at) {
+            at = next;
             starts.push(at as u32);
         }
+        Self {
+            starts,
+            is_ascii,
+            before,
+        }
+    }
+
+    /// Follows an edit, given the text after it: lines that it leaves as they are only move.
+    pub(crate) fn follow(&mut self, text: &str, edit: &Edit) {
+        if !self.is_ascii || !edit.text.is_ascii() {
+            *self = Self::of(text);
+            return;
+        }
+        // The edit may join or divide CR LF.
+        let first = self.line(edit.span.start().saturating_sub(1));
+        let moved = |start: &u32| start - edit.span.len() as u32 + edit.text.len() as u32;
+        let behind = self.line(edit.span.end()) + 1;
+        let mut rest = self.starts.split_off(behind).into_iter().peekable();
+        self.starts.truncate(first + 1);
+        let mut at = self.starts[first] as usize;
+        while let Some(next) = next_line(text, at) {
+            at = next;
+            while rest.next_if(|start| (moved(start) as usize) < at).is_some() {}
+            if rest.peek().is_some_and(|start| moved(start) as usize == at) {
+                break;
+            }
+            self.starts.push(at as u32);
+        }
+        self.starts.extend(rest.map(|start| moved(&start)));
     }
 
     /// The number of the line that an offset is on, from 0.

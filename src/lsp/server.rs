@@ -25,6 +25,10 @@ use crate::{Event, uri, wire};
 /// How long a text must be unchanged before new errors are shown: most are unfinished words.
 pub(crate) const PATIENCE: Duration = Duration::from_millis(200);
 
+/// The same of a text whose lowering takes about a second, in which the interface would have to wait for the
+/// next change.
+const LONG_PATIENCE: Duration = Duration::from_secs(2);
+
 /// Codes of JSON-RPC 2.0 and of the protocol.
 const PARSE_ERROR: i32 = -32700;
 const INVALID_REQUEST: i32 = -32600;
@@ -215,6 +219,11 @@ impl<W: Write> Server<W> {
             let Some(document) = self.documents.get_mut(&uri) else {
                 continue;
             };
+            if document.is_long() {
+                self.due.insert(uri.clone(), Instant::now() + LONG_PATIENCE);
+                self.changed.insert(uri);
+                continue;
+            }
             document.lower();
             if messages(&document.findings).all(|message| document.shown.contains(&message)) {
                 self.publish(&uri)?;
@@ -265,8 +274,12 @@ impl<W: Write> Server<W> {
     /// Shows what is wrong with a document.
     fn publish(&mut self, uri: &str) -> io::Result<()> {
         self.due.remove(uri);
+        let has_changed = self.changed.remove(uri);
         match self.documents.get_mut(uri) {
             Some(document) => {
+                if has_changed {
+                    document.lower();
+                }
                 document.shown = messages(&document.findings).collect();
                 let found = diagnostics::published(document);
                 self.say("textDocument/publishDiagnostics", &found)

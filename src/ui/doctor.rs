@@ -50,6 +50,7 @@ pub fn examine(scene: Option<&Path>) -> String {
         ),
         ("link", link(variable)),
         ("changes", changes(&folder)),
+        ("editors", editors()),
         ("threads", threads()),
         ("processor", vec![processor()]),
         ("memory", memory_limits()),
@@ -211,6 +212,29 @@ fn link(variable: impl Fn(&str) -> Option<String>) -> Vec<String> {
         Budget::Fixed(0) | Budget::Local => "local: no limit".to_owned(),
     };
     vec![format!("{words}; --bandwidth sets a limit")]
+}
+
+/// The interfaces that listen for editors, and which editors have connected.
+fn editors() -> Vec<String> {
+    let sockets = match link::sockets() {
+        Ok(sockets) => sockets,
+        Err(error) => return vec![format!("none can connect: {error}")],
+    };
+    let shown = sockets.iter().filter_map(|socket| link::shown(socket));
+    let mut lines: Vec<_> = shown
+        .map(|shown| {
+            let editor = shown.editor.map_or_else(
+                || "no editor is connected".to_owned(),
+                |editor| format!("open in {editor}"),
+            );
+            visible(&format!("{}: {editor}", shown.scene)).into_owned()
+        })
+        .collect();
+    if lines.is_empty() {
+        lines.push("no interface is running".to_owned());
+    }
+    lines.push("`halflight lsp --print-config` sets an editor up".to_owned());
+    lines
 }
 
 fn changes(folder: &Path) -> Vec<String> {

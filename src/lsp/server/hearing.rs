@@ -61,8 +61,8 @@ impl<W: Write> Server<W> {
                 let request = self.ask("workspace/applyEdit", &parameters)?;
                 self.asked.insert(request, (uri.to_owned(), base));
             }
-            // A place in another text.
-            Some(ToEditor::Show { .. }) => {}
+            // A place in another text, and an answer to nothing asked.
+            Some(ToEditor::Show { .. } | ToEditor::Shown(_)) => {}
         }
         Ok(())
     }

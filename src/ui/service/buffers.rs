@@ -1,9 +1,9 @@
 //! The buffer that an editor has of the scene: the outside text while it is open, instead of the file.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use link::{Follow, Heard, Listening, Opening, Sender, ToEditor, ToInterface};
+use link::{Follow, Heard, Listening, Opening, Sender, Shown, ToEditor, ToInterface};
 
 use crate::msg::{BufferNews, Msg};
 
@@ -14,6 +14,8 @@ const EDITORS: usize = 8;
 #[derive(Debug)]
 pub(crate) struct Buffers {
     follow: Follow,
+    /// The path of the scene.
+    scene: PathBuf,
     /// The socket; dropping it ends it.
     listening: Option<Listening>,
     senders: BTreeMap<u64, Sender>,
@@ -45,6 +47,7 @@ impl Buffers {
     pub(crate) fn new(follow: Follow) -> Self {
         Self {
             follow,
+            scene: PathBuf::new(),
             listening: None,
             senders: BTreeMap::new(),
             owner: None,
@@ -58,6 +61,7 @@ impl Buffers {
         scene: &Path,
         hear: impl Fn(Heard) + Clone + Send + 'static,
     ) -> Option<String> {
+        scene.clone_into(&mut self.scene);
         self.senders.clear();
         self.owner = None;
         // The socket of the same scene has to be free.
@@ -119,6 +123,11 @@ impl Buffers {
     }
 
     pub(crate) fn said(&mut self, connection: u64, message: ToInterface) -> Vec<Msg> {
+        if message == ToInterface::Who {
+            let shown = ToEditor::Shown(self.shown());
+            self.send(connection, &shown);
+            return Vec::new();
+        }
         let other = self.owner.as_ref();
         let other = other.filter(|owner| owner.connection.is_some_and(|owner| owner != connection));
         if let Some(owner) = other {
@@ -161,6 +170,7 @@ impl Buffers {
                 buffer.version = version;
                 vec![Msg::FileChanged]
             }
+            ToInterface::Who => Vec::new(),
             ToInterface::Saved => vec![Msg::Buffer(BufferNews::Saved)],
             ToInterface::Close => {
                 self.owner = None;
@@ -212,6 +222,17 @@ impl Buffers {
 
     fn follows(&self, owner: &Owner) -> bool {
         [self.follow, owner.buffer.follow] == [Follow::Typing; 2]
+    }
+
+    /// What is shown, and whose buffer.
+    fn shown(&self) -> Shown {
+        let scene = file::absolute(&self.scene);
+        let owner = self.owner.as_ref();
+        let owner = owner.filter(|owner| owner.connection.is_some());
+        Shown {
+            scene: scene.to_string_lossy().into_owned(),
+            editor: owner.map(|owner| owner.buffer.editor.clone()),
+        }
     }
 
     fn send(&mut self, connection: u64, message: &ToEditor) {

@@ -169,6 +169,11 @@ fn a_second_editor_is_told_who_has_the_scene() {
     let said = second.editor.wait_for("window/showMessage");
     let said = said["params"]["message"].as_str().expect("a message");
     assert!(said.contains("nvim"), "{said}");
+    let mut doctor = Command::new(env!("CARGO_BIN_EXE_halflight"));
+    let doctor = doctor.arg("doctor").stdin(Stdio::null()).env_clear();
+    let found = doctor.env("HOME", place.directory.path()).output();
+    let found = String::from_utf8(found.expect("it runs").stdout).expect("UTF-8");
+    assert!(found.contains("balls.ray: open in nvim"), "{found}");
     session.send("q");
     session.end();
 }

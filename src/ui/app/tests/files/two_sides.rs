@@ -238,7 +238,7 @@ impl Sides {
                 .to_interface
                 .push_back(ToInterface::Answer(base, false)),
             ToEditor::Whole => unreachable!("no version is left out"),
-            ToEditor::Show { .. } | ToEditor::Busy(_) => {}
+            ToEditor::Show { .. } | ToEditor::Shown(_) | ToEditor::Busy(_) => {}
         }
     }
 
