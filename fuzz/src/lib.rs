@@ -5,19 +5,21 @@ mod document;
 mod files;
 mod kept;
 mod keys;
+mod messages;
 mod scene;
 
 pub use document::{edits, merge};
 pub use files::{mtl, obj, picture, ply, stl};
 pub use kept::{config, part, record, track};
 pub use keys::keys;
+pub use messages::{link, lsp};
 pub use scene::{cse167, dat, ray, xml};
 
 /// A function that accepts any bytes.
 pub type Target = fn(&[u8]);
 
 /// All targets by name, which is also that of their corpus.
-pub const TARGETS: [(&str, Target); 16] = [
+pub const TARGETS: [(&str, Target); 18] = [
     ("ray", ray),
     ("cse167", cse167),
     ("dat", dat),
@@ -34,6 +36,8 @@ pub const TARGETS: [(&str, Target); 16] = [
     ("config", config),
     ("part", part),
     ("record", record),
+    ("lsp", lsp),
+    ("link", link),
 ];
 
 /// Splits an input at zero bytes, which do not occur in text, into N parts.

@@ -32,13 +32,21 @@ impl Place {
         Self::within(&around()?, scene)
     }
 
+    /// The place of a scene's socket, if the folder exists.
+    pub(crate) fn find(scene: &Path) -> io::Result<Option<Self>> {
+        let folder = Folder::find(&around()?, Store::Sockets)?;
+        let place = |folder| {
+            let name = name_of(scene)?;
+            Ok(Self { folder, name })
+        };
+        folder.map(place).transpose()
+    }
+
     /// As [`Place::of`], in the folder of sockets within this one.
     pub(crate) fn within(around: &Path, scene: &Path) -> io::Result<Self> {
-        let scene = canonical(scene)?;
-        let digest = Digest::of([scene.as_os_str().as_bytes()]);
         Ok(Self {
+            name: name_of(scene)?,
             folder: Folder::make(around, Store::Sockets)?,
-            name: format!("{}{SOCKET}", &digest[..DIGITS]),
         })
     }
 
@@ -61,6 +69,13 @@ pub fn sockets() -> io::Result<Vec<PathBuf>> {
     names.retain(|name| name.ends_with(SOCKET));
     names.sort();
     Ok(names.iter().map(|name| folder.place(name)).collect())
+}
+
+/// The name of a scene's socket.
+fn name_of(scene: &Path) -> io::Result<String> {
+    let scene = canonical(scene)?;
+    let digest = Digest::of([scene.as_os_str().as_bytes()]);
+    Ok(format!("{}{SOCKET}", &digest[..DIGITS]))
 }
 
 /// The folder that the folder of the sockets is in.

@@ -31,7 +31,10 @@ pub struct Receiver(BufReader<UnixStream>);
 ///
 /// Fails if there is none, or if it is not the user's own.
 pub fn connect(scene: &Path) -> io::Result<(Sender, Receiver)> {
-    connect_to(&Place::of(scene)?)
+    match Place::find(scene)? {
+        Some(place) => connect_to(&place),
+        None => Err(io::Error::from(io::ErrorKind::NotFound)),
+    }
 }
 
 pub(crate) fn connect_to(place: &Place) -> io::Result<(Sender, Receiver)> {
