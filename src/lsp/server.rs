@@ -29,6 +29,10 @@ pub(crate) const PATIENCE: Duration = Duration::from_millis(200);
 /// next change.
 const LONG_PATIENCE: Duration = Duration::from_secs(2);
 
+/// Said of a text that no interface follows.
+const LONE_CR: &str = "lines end in CR, which editors count in different ways: the interface follows the file, not \
+                       this buffer";
+
 /// Codes of JSON-RPC 2.0 and of the protocol.
 const PARSE_ERROR: i32 = -32700;
 const INVALID_REQUEST: i32 = -32600;
@@ -178,8 +182,13 @@ impl<W: Write> Server<W> {
                 let mut opened = Document::new(uri.to_owned(), file, text, self.encoding);
                 opened.version = document["version"].clone();
                 self.links.open(&opened);
+                let is_apart = opened.is_scene && links::has_lone_cr(opened.text());
                 self.documents.insert(uri.to_owned(), opened);
-                self.publish(uri)
+                self.publish(uri)?;
+                if is_apart {
+                    return self.show(2, LONE_CR);
+                }
+                Ok(())
             }
             "textDocument/didChange" => self.change(uri, document, parameters),
             "textDocument/didSave" => {

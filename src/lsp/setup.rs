@@ -97,9 +97,22 @@ local function halflight(event)
     vim.lsp.buf_attach_client(event.buf, halflight_client)
   end
 end
-vim.api.nvim_create_autocmd({ "BufReadPost", "BufNewFile" }, {
-  pattern = { "*.ray", "*.dat", "*.test", "*.xml" },
+local scenes = { "*.ray", "*.dat", "*.test", "*.xml" }
+vim.api.nvim_create_autocmd({ "BufReadPost", "BufNewFile", "BufFilePost" }, {
+  pattern = scenes,
   callback = halflight,
+})
+-- Under another name it is another document.
+vim.api.nvim_create_autocmd("BufFilePre", {
+  pattern = scenes,
+  callback = function(event)
+    local all = vim.lsp.get_clients and vim.lsp.get_clients() or vim.lsp.get_active_clients()
+    for _, client in ipairs(all) do
+      if client.name == "halflight" then
+        vim.lsp.buf_detach_client(event.buf, client.id)
+      end
+    end
+  end,
 })
 "#;
 
@@ -113,6 +126,9 @@ const EMACS: &str = r#";; init.el
 (define-derived-mode halflight-mode prog-mode "Halflight")
 (add-to-list 'auto-mode-alist '("\\.\\(ray\\|dat\\|test\\)\\'" . halflight-mode))
 (with-eval-after-load 'eglot
+  ;; Edits of the interface are made without a question, and Emacs says when it quits.
+  (setq eglot-confirm-server-initiated-edits nil)
+  (add-hook 'kill-emacs-hook #'eglot-shutdown-all)
   (add-to-list 'eglot-server-programs
                '((halflight-mode nxml-mode) . ("halflight" "lsp"))))
 (add-hook 'halflight-mode-hook #'eglot-ensure)
@@ -120,6 +136,9 @@ const EMACS: &str = r#";; init.el
 "#;
 
 const KAKOUNE: &str = r#"# kakrc, with kak-lsp
+eval %sh{ kak-lsp }
+set-option global lsp_auto_highlight_references true
+hook global WinSetOption filetype=(halflight|xml) lsp-enable-window
 hook global BufCreate .*[.](ray|dat|test) %{ set-option buffer filetype halflight }
 hook -group lsp-halflight global BufSetOption filetype=(halflight|xml) %{
   set-option buffer lsp_servers %{

@@ -67,7 +67,7 @@ pub struct Reading {
 pub struct ReadBuffer {
     /// The version of its text.
     pub version: u64,
-    /// What the file holds, if the editor has left without closing the buffer.
+    /// What the file held when the buffer was opened or saved, if the editor has left without closing it.
     pub in_file: Option<Arc<String>>,
 }
 

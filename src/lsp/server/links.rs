@@ -56,7 +56,7 @@ impl Links {
     pub(crate) fn new(inbox: mpsc::Sender<Event>) -> Self {
         Self {
             inbox,
-            editor: "an editor".to_owned(),
+            editor: "the editor".to_owned(),
             can: Abilities::default(),
             follow: Follow::default(),
             by_uri: BTreeMap::new(),
@@ -95,7 +95,8 @@ impl Links {
             return;
         };
         link.state = State::Apart(Instant::now() + AGAIN);
-        if !document.is_scene || LONGEST < document.text().len() {
+        let text = document.text();
+        if !document.is_scene || LONGEST < text.len() || has_lone_cr(text) {
             return;
         }
         let Ok((sender, mut receiver)) = link::connect(document.path()) else {
@@ -143,6 +144,14 @@ impl Links {
         };
         link.version += 1;
         let version = link.version;
+        if has_lone_cr(&edit.text) {
+            // The texts would drift apart.
+            self.close(&document.uri);
+            return;
+        }
+        let Some(link) = self.by_uri.get_mut(&document.uri) else {
+            return;
+        };
         match link.state {
             State::Connected(..) => {
                 self.tell(&document.uri, &ToInterface::Change(version, vec![edit]));
@@ -213,6 +222,14 @@ impl Links {
     }
 }
 
+/// Whether a text has a CR that does not belong to CR LF. By the protocol it ends a line, but editors count
+/// it as a character, so that edits would be made in other lines than they were meant for.
+pub(super) fn has_lone_cr(text: &str) -> bool {
+    let bytes = text.as_bytes();
+    let is_lone = |at: usize| bytes.get(at + 1) != Some(&b'\n');
+    text.match_indices('\r').any(|(at, _)| is_lone(at))
+}
+
 /// What the parameters of `initialize` say of the editor, its abilities and the user's wish.
 pub(crate) fn of_client(parameters: &Value) -> (String, Abilities, Follow) {
     let name = parameters["clientInfo"]["name"].as_str();
@@ -223,7 +240,7 @@ pub(crate) fn of_client(parameters: &Value) -> (String, Abilities, Follow) {
     };
     let follow = parameters["initializationOptions"]["follow"].as_str();
     let follow = follow.and_then(Follow::named).unwrap_or_default();
-    (short(name.unwrap_or("an editor")), can, follow)
+    (short(name.unwrap_or("the editor")), can, follow)
 }
 
 /// The name of an editor's program rather than of the editor.

@@ -36,6 +36,7 @@ impl App {
         effects.extend(display::follow(&mut self.shared));
         effects.extend(files::follow_edits(&mut self.shared));
         effects.extend(buffer::follow_edits(&mut self.shared));
+        effects.extend(files::leave_once_pushed(&mut self.shared));
         let time = self.shared.overlays.time_to_read();
         effects.extend(time.map(|time| Effect::Later(time, Timer::Message)));
         effects

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use link::{Follow, Heard, Listening, Opening, Sender, Shown, ToEditor, ToInterface};
 
@@ -9,6 +10,9 @@ use crate::msg::{BufferNews, Msg};
 
 /// The maximum number of editors that are connected at a time.
 const EDITORS: usize = 8;
+
+/// The maximum length of an editor's name on screen, in characters.
+const LONGEST_NAME: usize = 16;
 
 /// The connections of editors that have the scene open.
 #[derive(Debug)]
@@ -29,6 +33,8 @@ struct Owner {
     connection: Option<u64>,
     /// The buffer as it is now.
     buffer: Opening,
+    /// What the file held when the buffer was opened or saved.
+    in_file: Arc<String>,
     /// Whether the whole text was asked for, because a change does not fit.
     awaits_whole: bool,
 }
@@ -38,8 +44,8 @@ struct Owner {
 pub(crate) struct Outside {
     pub(crate) text: String,
     pub(crate) version: u64,
-    /// Whether the editor is gone.
-    pub(crate) is_left: bool,
+    /// If the editor is gone, what the file held when the buffer was opened or saved.
+    pub(crate) in_file: Option<Arc<String>>,
 }
 
 impl Buffers {
@@ -60,28 +66,47 @@ impl Buffers {
         &mut self,
         scene: &Path,
         hear: impl Fn(Heard) + Clone + Send + 'static,
-    ) -> Option<String> {
+    ) -> Vec<Msg> {
         scene.clone_into(&mut self.scene);
         self.senders.clear();
-        self.owner = None;
+        let former = self.owner.take();
+        let mut news: Vec<_> = former
+            .map(|_| Msg::Buffer(BufferNews::Closed))
+            .into_iter()
+            .collect();
         // The socket of the same scene has to be free.
         self.listening = None;
         match link::listen(scene, hear) {
-            Ok(listening) => {
-                self.listening = listening;
-                None
+            Ok(listening) => self.listening = listening,
+            Err(error) => {
+                let reason = format!("cannot listen for editors: {error}");
+                news.push(Msg::Failed(reason));
             }
-            Err(error) => Some(format!("cannot listen for editors: {error}")),
+        }
+        news
+    }
+
+    /// Listens if nobody does: another interface that showed the scene may have ended.
+    pub(super) fn listen_again(&mut self, hear: impl Fn(Heard) + Clone + Send + 'static) {
+        if self.listening.is_none() && !self.scene.as_os_str().is_empty() {
+            // Why it is impossible was said when the scene was opened.
+            self.listening = link::listen(&self.scene, hear).ok().flatten();
         }
     }
 
     /// The outside text, if an editor's buffer is followed.
     pub(crate) fn outside(&self) -> Option<Outside> {
         let owner = self.owner.as_ref().filter(|owner| self.follows(owner))?;
+        let text = &owner.buffer.text;
+        let is_left = owner.connection.is_none();
         Some(Outside {
-            text: owner.buffer.text.clone(),
+            text: if is_left {
+                as_in_file(text, &owner.in_file)
+            } else {
+                text.clone()
+            },
             version: owner.buffer.version,
-            is_left: owner.connection.is_none(),
+            in_file: is_left.then(|| Arc::clone(&owner.in_file)),
         })
     }
 
@@ -92,9 +117,10 @@ impl Buffers {
         owner.map_or_else(Vec::new, |owner| self.opened(owner))
     }
 
-    /// Forgets a buffer whose editor is gone.
-    pub(crate) fn forget(&mut self) {
-        self.owner.take_if(|owner| owner.connection.is_none());
+    /// Forgets a buffer whose editor is gone; the file, which may have changed since, is read then.
+    pub(crate) fn forget(&mut self) -> Option<Msg> {
+        let forgotten = self.owner.take_if(|owner| owner.connection.is_none());
+        forgotten.map(|_| Msg::FileChanged)
     }
 
     /// Sends a message to the editor.
@@ -109,12 +135,20 @@ impl Buffers {
     pub(super) fn heard(&mut self, heard: Heard) -> Vec<Msg> {
         match heard {
             Heard::Came(connection, sender) => {
-                if self.senders.len() < EDITORS {
-                    self.senders.insert(connection, sender);
+                if EDITORS <= self.senders.len() {
+                    let owner = self.owner.as_ref().and_then(|owner| owner.connection);
+                    let silent = self.senders.keys().find(|known| Some(**known) != owner);
+                    let silent = silent.copied();
+                    silent.and_then(|silent| self.senders.remove(&silent));
                 }
+                self.senders.insert(connection, sender);
                 Vec::new()
             }
-            Heard::Said(connection, message, _) => self.said(connection, message),
+            Heard::Said(connection, message, _) => {
+                let scene = self.scene.clone();
+                let in_file = || file::read_text(&scene).unwrap_or_default();
+                self.said(connection, message, in_file)
+            }
             Heard::Left(connection) => {
                 self.senders.remove(&connection);
                 self.left(connection)
@@ -122,7 +156,13 @@ impl Buffers {
         }
     }
 
-    pub(crate) fn said(&mut self, connection: u64, message: ToInterface) -> Vec<Msg> {
+    /// Takes a message of an editor; `in_file` reads the file.
+    pub(crate) fn said(
+        &mut self,
+        connection: u64,
+        message: ToInterface,
+        in_file: impl FnOnce() -> String,
+    ) -> Vec<Msg> {
         if message == ToInterface::Who {
             let shown = ToEditor::Shown(self.shown());
             self.send(connection, &shown);
@@ -137,11 +177,25 @@ impl Buffers {
             return Vec::new();
         }
         match message {
-            ToInterface::Open(buffer) => {
+            ToInterface::Open(mut buffer) => {
+                if self
+                    .owner
+                    .as_ref()
+                    .is_some_and(|owner| owner.connection.is_none())
+                {
+                    // The text of an editor that is gone is not taken yet; this one tries again.
+                    self.senders.remove(&connection);
+                    return Vec::new();
+                }
+                buffer.editor = name_of(&buffer.editor);
                 let was_open = self.owner.as_ref().is_some_and(|owner| owner.awaits_whole);
                 let owner = Owner {
                     connection: Some(connection),
                     buffer,
+                    in_file: match self.owner.take() {
+                        Some(owner) => owner.in_file,
+                        None => Arc::new(in_file()),
+                    },
                     awaits_whole: false,
                 };
                 let news = if was_open {
@@ -171,7 +225,13 @@ impl Buffers {
                 vec![Msg::FileChanged]
             }
             ToInterface::Who => Vec::new(),
-            ToInterface::Saved => vec![Msg::Buffer(BufferNews::Saved)],
+            ToInterface::Saved => {
+                if let Some(owner) = &mut self.owner {
+                    let saved = as_in_file(&owner.buffer.text, &owner.in_file);
+                    owner.in_file = Arc::new(saved);
+                }
+                vec![Msg::Buffer(BufferNews::Saved)]
+            }
             ToInterface::Close => {
                 self.owner = None;
                 vec![Msg::Buffer(BufferNews::Closed), Msg::FileChanged]
@@ -240,6 +300,63 @@ impl Buffers {
         if sender.is_some_and(|sender| sender.send(&message.to_json()).is_err()) {
             // Its end is heard too.
             self.senders.remove(&connection);
+        }
+    }
+}
+
+/// A text with the line ends and the byte order mark of the file, which editors may keep to themselves.
+fn as_in_file(text: &str, in_file: &str) -> String {
+    const MARK: char = '\u{FEFF}';
+    let ends_lines = |end| in_file.matches(end).count();
+    let has_crlf = 0 < ends_lines("\r\n") && ends_lines("\r\n") == ends_lines("\n");
+    let mut text = if has_crlf && !text.contains('\r') {
+        text.replace('\n', "\r\n")
+    } else {
+        text.to_owned()
+    };
+    if in_file.starts_with(MARK) && !text.starts_with(MARK) {
+        text.insert(0, MARK);
+    }
+    text
+}
+
+/// The name of an editor as it can be shown.
+fn name_of(editor: &str) -> String {
+    let plain = editor.chars().filter(|c| !c.is_control());
+    let name: String = plain.take(LONGEST_NAME).collect();
+    match name.trim() {
+        "" => "the editor".to_owned(),
+        name => name.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_keep_the_line_ends_and_the_mark_of_the_file() {
+        for (text, in_file, kept) in table! {
+            "a\nb\n", "x\r\ny\r\n" => "a\r\nb\r\n";
+            "a\r\nb", "x\r\n" => "a\r\nb";
+            "a\nb", "x\r\ny\n" => "a\nb";
+            "a\nb", "\u{FEFF}x\n" => "\u{FEFF}a\nb";
+            "\u{FEFF}a", "\u{FEFF}x" => "\u{FEFF}a";
+            "a\n", "" => "a\n";
+        } {
+            assert_eq!(as_in_file(text, in_file), kept);
+        }
+    }
+
+    #[test]
+    fn names_are_short_and_plain() {
+        for (name, shown) in table! {
+            "nvim" => "nvim";
+            "\u{1b}[31m\n" => "[31m";
+            "   " => "the editor";
+            "a very long name of an editor" => "a very long name";
+        } {
+            assert_eq!(name_of(name), shown);
         }
     }
 }

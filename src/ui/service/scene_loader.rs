@@ -4,12 +4,11 @@
 use std::cell::LazyCell;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::thread;
 use std::time::Instant;
 
-use super::buffers::{Buffers, Outside};
+use super::buffers::Buffers;
 use super::watching::Watching;
 use crate::event::Work;
 use crate::msg::{Msg, Polled};
@@ -61,13 +60,17 @@ impl SceneLoader {
         let buffers = Buffers::new(options.follow.unwrap_or_default());
         let service = Service::start_shared("reading", "reads scenes", move |inbox, requests| {
             let mut watching = Watching::new(Polled::Scene, method, send.clone());
-            let watch = |path: PathBuf, buffers: &mut Buffers| {
+            let watch = |path: Option<PathBuf>, buffers: &mut Buffers| {
                 let requests = requests.clone();
                 // The thread ends only with the program.
                 let hear = move |heard| drop(requests.send(Request::Hear(heard)));
-                let failed = buffers.listen(&path, hear);
+                let Some(path) = path else {
+                    buffers.listen_again(hear);
+                    return Vec::new();
+                };
+                let news = buffers.listen(&path, hear);
                 watching.watch(vec![path]);
-                failed.map(Msg::Failed)
+                news
             };
             let read = |path: &Path| {
                 if is_mesh(path) {
@@ -124,7 +127,7 @@ impl SceneLoader {
 fn follow(
     inbox: &Receiver<Request>,
     mut buffers: Buffers,
-    mut watch: impl FnMut(PathBuf, &mut Buffers) -> Option<Msg>,
+    mut watch: impl FnMut(Option<PathBuf>, &mut Buffers) -> Vec<Msg>,
     read: impl Fn(&Path) -> Result<Content, ReadError>,
     send: impl Fn(Msg),
 ) {
@@ -145,8 +148,14 @@ fn follow(
             file::regain_folder();
             let outside = buffers.outside().filter(|_| wanted.language.is_none());
             let (read, outside) = match outside {
-                Some(outside) => beside_file(outside, &path),
                 None => (read(&path), None),
+                Some(outside) => {
+                    let buffer = ReadBuffer {
+                        version: outside.version,
+                        in_file: outside.in_file,
+                    };
+                    (Ok(Content::Text(outside.text)), Some(buffer))
+                }
             };
             requests = inbox.try_iter().collect();
             if ends(&requests) {
@@ -216,20 +225,6 @@ fn around_mesh(path: &Path, up: Option<Up>) -> Result<Content, ReadError> {
     Ok(Content::AroundMesh(made))
 }
 
-/// The text of an editor's buffer. If the editor is gone, what the file holds belongs to it: nothing if it
-/// cannot be read.
-fn beside_file(outside: Outside, path: &Path) -> (Result<Content, ReadError>, Option<ReadBuffer>) {
-    let in_file = outside.is_left.then(|| {
-        let text = file::read_text(path).unwrap_or_default();
-        Arc::new(text)
-    });
-    let buffer = ReadBuffer {
-        version: outside.version,
-        in_file,
-    };
-    (Ok(Content::Text(outside.text)), Some(buffer))
-}
-
 fn ends(requests: &[Request]) -> bool {
     requests
         .iter()
@@ -255,20 +250,21 @@ impl Request {
 fn last(
     requests: Vec<Request>,
     buffers: &mut Buffers,
-    mut watch: impl FnMut(PathBuf, &mut Buffers) -> Option<Msg>,
+    mut watch: impl FnMut(Option<PathBuf>, &mut Buffers) -> Vec<Msg>,
     send: impl Fn(Msg),
 ) -> Option<Wanted> {
     let mut last = None;
     for request in requests {
         match request {
             // Before the file is read, so that no later change is missed.
-            Request::Watch(path) => watch(path, buffers).into_iter().for_each(&send),
+            Request::Watch(path) => watch(Some(path), buffers).into_iter().for_each(&send),
             Request::Hear(heard) => buffers.heard(heard).into_iter().for_each(&send),
             Request::Tell(message) => buffers.tell(&message),
-            Request::Forget => buffers.forget(),
+            Request::Forget => buffers.forget().into_iter().for_each(&send),
             Request::End => {}
             Request::Follow(follow) => buffers.follow(follow).into_iter().for_each(&send),
             Request::Read(path, baseline, work) => {
+                watch(None, buffers).into_iter().for_each(&send);
                 last = Some(Wanted {
                     path,
                     baseline,
@@ -373,7 +369,7 @@ mod tests {
             msg => panic!("{msg:?}"),
         };
         let buffers = Buffers::new(Follow::Typing);
-        follow(&inbox, buffers, |_, _| None, reads, report);
+        follow(&inbox, buffers, |_, _| Vec::new(), reads, report);
         (read.into_inner(), sent.into_inner())
     }
 

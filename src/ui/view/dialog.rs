@@ -60,13 +60,21 @@ fn conflict(
     let conflicts = &merge.conflicts;
     let height = conflicts.len() + keys.len() + 4;
     let (title, theirs) = match from {
-        MergeSource::File => (" The file changed too ", "file"),
+        MergeSource::File => match &app.shared.buffer {
+            None => (" The file changed too ", "file"),
+            Some(buffer) => (" Changed in the editor too ", &*buffer.editor),
+        },
         MergeSource::Kept(..) => (" Recover ", files::text_name(&app.shared)),
     };
     let inner = frame(title, (width, height), area, buffer);
     let (list, _) = layout::split_bottom(inner, keys.len() as u16);
+    let article = if app.shared.buffer.is_some() {
+        ""
+    } else {
+        "The "
+    };
     let head = format!(
-        "The {theirs} and your unsaved edits both changed these. Which do you want to keep?"
+        "{article}{theirs} and your edits here both changed these. Which do you want to keep?"
     );
     let head = &head;
     Row::new(buffer, list, 0).skip(1).put(head, Style::new());

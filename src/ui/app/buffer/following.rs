@@ -15,8 +15,6 @@ pub(crate) fn heard(shared: &mut Shared, news: BufferNews) -> Vec<Effect> {
             can,
             is_followed,
         } => {
-            let name = shared.disk.name();
-            shared.say(format!("{editor} has {name} open"));
             shared.buffer = Some(Buffer::new(editor, can, is_followed));
         }
         BufferNews::Saved => {
@@ -24,12 +22,7 @@ pub(crate) fn heard(shared: &mut Shared, news: BufferNews) -> Vec<Effect> {
                 buffer.is_changed = false;
             }
         }
-        BufferNews::Closed => {
-            if let Some(buffer) = shared.buffer.take() {
-                let (editor, name) = (buffer.editor, shared.disk.name());
-                shared.say(format!("{editor} closed {name}"));
-            }
-        }
+        BufferNews::Closed => shared.buffer = None,
         BufferNews::Left => {
             if let Some(buffer) = &mut shared.buffer {
                 buffer.can = Abilities::default();

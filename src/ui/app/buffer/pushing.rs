@@ -110,6 +110,7 @@ fn try_again(shared: &mut Shared) -> Vec<Effect> {
         return Vec::new();
     }
     buffer.failures = 0;
+    shared.jobs.next = None;
     let editor = buffer.editor.clone();
     let back = shared.document.edits_to_saved();
     if text::make_step(

@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::recover::keep_the_rest;
 use super::replacing::{request_scene, start_scene};
 use super::saving::{end_save, save};
-use crate::app::{AfterLeaving, Dialog, OnDisk, Question, Shared, camera, text};
+use crate::app::{AfterLeaving, Buffer, Dialog, OnDisk, Question, Shared, camera, text};
 use crate::keymap::Mode;
 use crate::msg::{Effect, SaveId, SaveOutcome, Timer};
 
@@ -58,11 +58,35 @@ pub(crate) fn quit(shared: &mut Shared) -> Vec<Effect> {
 /// Leaves the scene; asks first if something would be lost.
 pub(super) fn leave_for(shared: &mut Shared, next: AfterLeaving) -> Vec<Effect> {
     text::leave_sequence(shared);
+    if is_being_pushed(shared) && shared.jobs.next.is_none() {
+        let buffer = shared.buffer.as_ref();
+        let editor = buffer.map_or("", |buffer| &*buffer.editor);
+        let words = format!("will leave once {editor} has the last change; use :q! to quit now");
+        shared.jobs.next = Some(next);
+        shared.say(words);
+        return Vec::new();
+    }
     if losses_before(shared, &next).is_some() {
         shared.overlays.dialog = Some(Dialog::Leave(next));
         return Vec::new();
     }
     leave(shared, next)
+}
+
+/// Whether the unsaved edits are on their way to an editor's buffer.
+fn is_being_pushed(shared: &Shared) -> bool {
+    let is_on_the_way = |buffer: &Buffer| buffer.sent.is_some() || buffer.due.is_some();
+    shared.document.is_dirty() && shared.buffer.as_ref().is_some_and(is_on_the_way)
+}
+
+/// Leaves as planned once an editor has the last change.
+pub(crate) fn leave_once_pushed(shared: &mut Shared) -> Vec<Effect> {
+    let is_planned = shared.buffer.is_some() && shared.jobs.next.is_some();
+    if is_planned && !shared.document.is_dirty() {
+        leave_when_done(shared)
+    } else {
+        Vec::new()
+    }
 }
 
 /// Leaves the scene as asked, regardless of losses.

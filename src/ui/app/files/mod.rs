@@ -18,8 +18,8 @@ pub(crate) use editor::{editor_closed, open_editor};
 pub(crate) use first_scene::{first_read, open};
 pub(crate) use keys::KEYS;
 pub(crate) use leaving::{
-    interrupt, leave_anyway, leave_when_done, question_before, quit, quit_anyway,
-    quit_keeping_edits, quit_key, save_and_quit, save_key, save_view_key, was_saved,
+    interrupt, leave_anyway, leave_once_pushed, leave_when_done, question_before, quit,
+    quit_anyway, quit_keeping_edits, quit_key, save_and_quit, save_key, save_view_key, was_saved,
 };
 pub(crate) use merging::{adopt, decide, decide_all};
 pub(crate) use other_scene::{edit_file, other_scene_read, start_new};

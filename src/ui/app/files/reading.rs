@@ -270,7 +270,9 @@ fn take_text(shared: &mut Shared, reading: Reading, settle: Settle) -> Vec<Effec
         let effects = outside::took(shared, buffer);
         if shared.disk.state != OnDisk::Known {
             shared.disk.state = OnDisk::Known;
-            shared.say("the file matches the saved text again");
+            if !is_buffer {
+                shared.say("the file matches the saved text again");
+            }
         } else if requester == Requester::User {
             shared.say(format!("{} has not changed", shared.disk.name()));
         }

@@ -211,6 +211,8 @@ fn take_saved(shared: &mut Shared, path: PathBuf, text: Arc<String>) -> Vec<Effe
     if !shared.disk.is_own(&path) {
         shared.disk.path = Some(path);
         shared.disk.place = None;
+        // It is that of the other file.
+        shared.buffer = None;
         effects.extend(watch(shared));
         // The scene's files are now looked for in another folder.
         text::relower(shared);

@@ -15,11 +15,11 @@ fn edited<'s>() -> Stage<'s> {
 
 scripts! {
     an_open_buffer_is_named_on_screen: ray().play(r"
-        @buffer opened edits | says nvim has scene.ray open | buffer nvim
+        @buffer opened edits | buffer nvim
         @typed 0 opened      | not dirty | buffer nvim
-        @typed 1 1.5 => 1.7  | text file | not dirty | says nvim has… | buffer nvim*
+        @typed 1 1.5 => 1.7  | text file | not dirty | not says | buffer nvim*
         @buffer saved        | buffer nvim
-        @buffer closed       | says nvim closed scene.ray | not buffer
+        @buffer closed       | not says | not buffer
     ");
 
     /// Unfinished words are not errors at once, and corrected ones vanish at once.
@@ -149,6 +149,29 @@ scripts! {
         @buffer opened edits
         @typed 0 opened
         jjjE | says line 6 in nvim
+    ");
+
+    leaving_waits_for_the_editor_to_have_the_last_change: edited().play(r"
+        jjjel
+        q              | says will leave once nvim has the last change… | not does quit
+        @elapsed push
+        @answered 0 made 0
+        @typed 1 mine  | does quit
+
+        // Edits that are taken back are not to be lost.
+        jjjel
+        q
+        @elapsed push
+        @answered 0 refused 0
+        @elapsed push
+        @answered 0 refused 0 | says nvim did not take the change… | not does quit
+    ");
+
+    another_file_is_not_the_editors: edited().play(r"
+        :w other.ray<Enter>
+        @saved | not buffer
+        [object 1] el
+        w      | does save other.ray
     ");
 
     an_editor_without_edits_is_only_followed: ray().play(r"

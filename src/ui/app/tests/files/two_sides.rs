@@ -4,7 +4,6 @@
 
 use std::collections::{BTreeSet, VecDeque};
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use super::*;
 use crate::app::OnDisk;
@@ -86,7 +85,7 @@ impl Sides {
             match effect {
                 Effect::Read(_, baseline) => self.reading = Some(baseline),
                 Effect::Tell(message) if self.editor.is_some() => self.to_editor.push_back(message),
-                Effect::ForgetBuffer => self.buffers.forget(),
+                Effect::ForgetBuffer => self.inbox.extend(self.buffers.forget()),
                 Effect::Later(_, Timer::Push) => drop(self.timers.insert("push")),
                 Effect::Later(_, Timer::Settled) => drop(self.timers.insert("settled")),
                 Effect::Save { id, path, text, .. } => {
@@ -186,7 +185,9 @@ impl Sides {
         };
         self.to_editor.clear();
         if !is_killed {
-            let news = self.buffers.said(editor.connection, ToInterface::Close);
+            let news = self
+                .buffers
+                .said(editor.connection, ToInterface::Close, String::new);
             self.inbox.extend(news);
             // What was not saved is discarded, the interface's edits among it.
             let kept = |comment: &String| self.disk.contains(comment.as_str());
@@ -200,7 +201,8 @@ impl Sides {
 
     fn arrive(&mut self) {
         if let (Some(message), Some(editor)) = (self.to_interface.pop_front(), &self.editor) {
-            let news = self.buffers.said(editor.connection, message);
+            let in_file = || self.disk.clone();
+            let news = self.buffers.said(editor.connection, message, in_file);
             self.inbox.extend(news);
         }
     }
@@ -250,8 +252,7 @@ impl Sides {
         let (text, buffer) = match outside {
             None => (self.disk.clone(), None),
             Some(outside) => {
-                let in_file = outside.is_left.then(|| Arc::new(self.disk.clone()));
-                let version = outside.version;
+                let (version, in_file) = (outside.version, outside.in_file);
                 (outside.text, Some(ReadBuffer { version, in_file }))
             }
         };
@@ -292,7 +293,7 @@ impl Sides {
                     self.update(msg);
                 }
             }
-            20..=24 => self.read(),
+            21..=24 => self.read(),
             25..=27 => self.elapse(Timer::Push, "push"),
             28..=29 => self.elapse(Timer::Settled, "settled"),
             30..=33 if self.app.shared.overlays.dialog.is_none() => self.press("l"),
@@ -307,6 +308,15 @@ impl Sides {
                     self.to_interface.push_back(ToInterface::Saved);
                     self.inbox.push_back(Msg::FileChanged);
                 }
+            }
+            20 => {
+                // Another program changes the file; what it does is lost if the editor saves later.
+                self.numbers += 1;
+                let comment = format!("// d{}\n", self.numbers);
+                self.disk.push_str(&comment);
+                self.inbox.push_back(Msg::FileChanged);
+                self.comments
+                    .extend(self.editor.is_none().then_some(comment));
             }
             36 => self.end_editor(false),
             37 => self.end_editor(true),
