@@ -328,6 +328,21 @@ impl<W: Write> Server<W> {
                 let reason = format!("{method} is not allowed now");
                 Err(Refusal(INVALID_REQUEST, reason))
             }
+            ("workspace/executeCommand", State::Running) => {
+                if self.execute(parameters) {
+                    return Ok(Value::Null);
+                }
+                let reason = format!("{method}: the command or its place is unknown");
+                Err(Refusal(INVALID_PARAMETERS, reason))
+            }
+            ("textDocument/codeAction", State::Running) => {
+                let show = self.action_to_show(parameters);
+                let mut actions = self.answer_about(method, parameters)?;
+                if let (Some(actions), Some(show)) = (actions.as_array_mut(), show) {
+                    actions.push(show);
+                }
+                Ok(actions)
+            }
             (_, State::Running) => self.answer_about(method, parameters),
         }
     }
@@ -423,7 +438,8 @@ fn capabilities(encoding: Encoding) -> Value {
             "documentHighlightProvider": true,
             "renameProvider": { "prepareProvider": true },
             "completionProvider": { "triggerCharacters": [" ", "\"", "<", "/"] },
-            "codeActionProvider": { "codeActionKinds": [actions::KIND] },
+            "codeActionProvider": { "codeActionKinds": [actions::KIND, ""] },
+            "executeCommandProvider": { "commands": [hearing::SHOW] },
             "documentSymbolProvider": true,
             "foldingRangeProvider": true,
             "inlayHintProvider": true,

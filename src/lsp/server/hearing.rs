@@ -9,6 +9,9 @@ use text::Span;
 use super::Server;
 use crate::wire;
 
+/// The command that shows a place in the interface.
+pub(super) const SHOW: &str = "halflight.show";
+
 impl<W: Write> Server<W> {
     /// Takes the editor's answer to a request.
     pub(super) fn answered(&mut self, id: &Value, message: &Value) {
@@ -74,6 +77,36 @@ impl<W: Write> Server<W> {
         let message = json!({ "jsonrpc": "2.0", "id": id, "method": method, "params": parameters });
         wire::write(&mut self.output, &message)?;
         Ok(id)
+    }
+
+    /// The action that shows a place in the interface, if one shows the document and actions of its kind are
+    /// asked for.
+    pub(super) fn action_to_show(&self, parameters: &Value) -> Option<Value> {
+        let uri = parameters["textDocument"]["uri"].as_str()?;
+        let only = parameters["context"]["only"].as_array();
+        let is_asked = |kinds: &Vec<Value>| kinds.iter().any(|kind| kind == "");
+        if !only.is_none_or(is_asked) || !self.links.is_connected(uri) {
+            return None;
+        }
+        let title = "Show in Halflight";
+        let arguments = json!([uri, parameters["range"]["start"]]);
+        let command = json!({ "title": title, "command": SHOW, "arguments": arguments });
+        Some(json!({ "title": title, "kind": "", "command": command }))
+    }
+
+    /// Carries out a command of an action; whether there is one of this name, with a place.
+    pub(super) fn execute(&mut self, parameters: &Value) -> bool {
+        let [uri, position] = [0, 1].map(|at| &parameters["arguments"][at]);
+        let uri = uri.as_str().unwrap_or("");
+        let document = self.documents.get(uri);
+        let at = document.and_then(|document| document.offset(position));
+        match at {
+            Some(at) if parameters["command"] == SHOW => {
+                self.links.tell(uri, &ToInterface::Cursor(at));
+                true
+            }
+            _ => false,
+        }
     }
 
     /// Tells the interface where the cursor is: highlights are asked for where it rests.

@@ -202,6 +202,12 @@ impl Links {
         )
     }
 
+    /// Whether an interface shows a document.
+    pub(crate) fn is_connected(&self, uri: &str) -> bool {
+        let link = self.by_uri.get(uri);
+        link.is_some_and(|link| matches!(link.state, State::Connected(..)))
+    }
+
     /// The version of a document's text.
     pub(crate) fn version(&self, uri: &str) -> Option<u64> {
         self.by_uri.get(uri).map(|link| link.version)

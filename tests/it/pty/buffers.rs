@@ -115,6 +115,7 @@ fn the_picture_follows_a_buffer_and_edits_return_to_it() {
         BALLS.replacen("0 1 0  0 0 0", "0 0 1  0 0 0", 1)
     );
 
+    wait_until_gone(&mut session, "[+]");
     // The editor's cursor selects, and a key of the interface moves it.
     let position = json!({ "line": 4, "character": 3 });
     let place_of = json!({ "textDocument": { "uri": editor.uri }, "position": position });
@@ -123,9 +124,19 @@ fn the_picture_follows_a_buffer_and_edits_return_to_it() {
         .ask("textDocument/documentHighlight", &place_of);
     assert_eq!(highlights, Value::Null);
     session.wait_for("object 2 (sphere)");
+    let start = json!({ "line": 3, "character": 0 });
+    let range = json!({ "start": start, "end": start });
+    let document = json!({ "uri": editor.uri });
+    let asked =
+        json!({ "textDocument": document, "range": range, "context": { "diagnostics": [] } });
+    let actions = editor.editor.ask("textDocument/codeAction", &asked);
+    assert_eq!(actions[0]["title"], "Show in Halflight", "{actions}");
+    let command = &actions[0]["command"];
+    editor.editor.ask("workspace/executeCommand", command);
+    session.wait_for("object 1 (sphere)");
     session.send("E");
     let shown = editor.editor.wait_for("window/showDocument");
-    assert_eq!(shown["params"]["selection"]["start"]["line"], 4);
+    assert_eq!(shown["params"]["selection"]["start"]["line"], 3);
 
     // What is closed without being saved is discarded.
     editor.notify("textDocument/didClose");
