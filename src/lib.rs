@@ -44,7 +44,7 @@
 //! | [`link`] | the socket between an editor's language server and a running interface, and the messages on it | editors' protocols, pictures |
 //! | [`ui`] | the terminal: the only room that knows ratatui and crossterm; a mode is a folder of `app`, a command a row of `app/command`, a key a row of its room | how pixels are computed |
 //! | [`batch`] | headless work: check, render, merge, show, compare, explain, convert, bench | terminals |
-//! | [`lsp`] | an editor's questions about a text: diagnostics, hover, symbols, rename, colours | the interface |
+//! | [`lsp`] | an editor's questions about a text: diagnostics and fixes, completion, hover, symbols, rename, colours; passes the text on by the link | pictures |
 //! | [`config`] | the user's configuration: reads, checks and prints it | what the settings do |
 //! | [`cli`] | arguments and exit codes | how the work is done |
 //!

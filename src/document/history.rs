@@ -65,6 +65,11 @@ impl History {
         }
     }
 
+    /// Whether there are no steps.
+    pub(super) fn is_empty(&self) -> bool {
+        self.undo.is_empty() && self.redo.is_empty()
+    }
+
     /// The history after edits from outside of the present text: the steps up to the first that they touch,
     /// with texts of new numbers. Without edits, the same history.
     pub(super) fn rebased(&self, outside: &[Edit]) -> Self {

@@ -249,12 +249,13 @@ impl Document {
         }
     }
 
-    /// Replaces the document, which must have no unsaved edits, by a text from outside; returns the
-    /// old one.
+    /// Replaces the document by a text from outside, whose saved text it has too; returns the old one. The
+    /// history may be cleared only if there are no unsaved edits.
     #[must_use = "freeing it may take long"]
     pub fn load(&mut self, mut document: Self, past: Past) -> Self {
         document.history = match past {
             Past::Cleared => History::after(&self.history),
+            Past::Rebased if self.history.is_empty() => History::after(&self.history),
             Past::Rebased => {
                 let outside = edits_between(self.text(), document.text());
                 self.history.rebased(&outside)

@@ -1,5 +1,5 @@
-//! The folders of what is kept from one run to the next or shared between runs, below `halflight` in `$XDG_STATE_HOME` or in
-//! `~/.local/state`. Whatever is kept is read, written and removed through one of them.
+//! The folders of what is kept from one run to the next, below `halflight` in `$XDG_STATE_HOME` or in
+//! `~/.local/state`, and of what runs share, in the same folder of any other. Whatever is kept is read, written and removed through one of them.
 //!
 //! A folder is held open and all names are resolved relative to it, so that replacing it has no
 //! effect. Neither it nor its parent may be a link or be writable by others: anyone who could write

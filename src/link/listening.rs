@@ -6,9 +6,11 @@ use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::Path;
 use std::sync::mpsc;
 use std::thread;
+use std::time::Duration;
 
 use file::Lock;
 use rustix::event::{PollFd, PollFlags, poll};
+use rustix::io::Errno;
 
 use super::messages::ToInterface;
 use super::place::Place;
@@ -16,6 +18,9 @@ use super::stream::{self, Receiver, Sender};
 
 /// The maximum number of messages of one connection that are not handled yet.
 const UNHANDLED: usize = 256;
+
+/// How long after a connection that could not be accepted another is tried.
+const PAUSE: Duration = Duration::from_millis(100);
 
 /// What is heard on a socket.
 #[derive(Debug)]
@@ -105,15 +110,15 @@ fn lock(place: &Place) -> io::Result<Option<File>> {
     loop {
         let file = match place.folder.create(&name) {
             Ok(file) => file,
-            Err(_) => match place.folder.open(&name)? {
+            Err(error) => match place.folder.open(&name)? {
                 Some(file) => file,
-                // Removed meanwhile.
-                None => continue,
+                None if error.kind() == io::ErrorKind::AlreadyExists => continue,
+                None => return Err(error),
             },
         };
         match file::lock(&file) {
             Lock::Busy => return Ok(None),
-            Lock::Unknown if stream::is_alive(&place.path()) => return Ok(None),
+            Lock::Unknown if stream::is_alive(place) => return Ok(None),
             Lock::Taken | Lock::Unknown => {}
         }
         // Its last owner may have removed it just before.
@@ -134,11 +139,14 @@ fn accept(
             PollFd::new(listener, PollFlags::IN),
             PollFd::new(woken, PollFlags::IN),
         ];
-        let polled = poll(&mut ready, None);
-        if polled.is_err() || !ready[1].revents().is_empty() {
-            return;
+        match poll(&mut ready, None) {
+            Err(Errno::INTR) => continue,
+            Ok(_) if ready[1].revents().is_empty() => {}
+            _ => return,
         }
         let Ok((stream, _)) = listener.accept() else {
+            // Out of files, for example.
+            thread::sleep(PAUSE);
             continue;
         };
         let Ok((sender, receiver)) = stream::ends(stream) else {

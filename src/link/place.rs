@@ -61,14 +61,20 @@ impl Place {
 /// # Errors
 ///
 /// Fails if others can write to the folder, or if there can be none.
-pub fn sockets() -> io::Result<Vec<PathBuf>> {
-    let Some(folder) = Folder::find(&around()?, Store::Sockets)? else {
+pub fn sockets() -> io::Result<Vec<Place>> {
+    let around = around()?;
+    let find = || Folder::find(&around, Store::Sockets);
+    let Some(folder) = find()? else {
         return Ok(Vec::new());
     };
     let mut names = folder.names();
     names.retain(|name| name.ends_with(SOCKET));
     names.sort();
-    Ok(names.iter().map(|name| folder.place(name)).collect())
+    let mut places = Vec::with_capacity(names.len());
+    for name in names {
+        places.extend(find()?.map(|folder| Place { folder, name }));
+    }
+    Ok(places)
 }
 
 /// The name of a scene's socket.

@@ -42,8 +42,8 @@ pub(crate) fn connect_to(place: &Place) -> io::Result<(Sender, Receiver)> {
 }
 
 /// What the interface shows that listens on a socket; `None` if none answers.
-pub fn shown(socket: &Path) -> Option<Shown> {
-    let stream = UnixStream::connect(socket).ok()?;
+pub fn shown(place: &Place) -> Option<Shown> {
+    let stream = UnixStream::connect(place.folder.short_place(&place.name)).ok()?;
     stream.set_read_timeout(Some(PATIENCE)).ok()?;
     let (mut sender, mut receiver) = ends(stream).ok()?;
     sender.send(&ToInterface::Who.to_json()).ok()?;
@@ -55,8 +55,8 @@ pub fn shown(socket: &Path) -> Option<Shown> {
 }
 
 /// Whether something listens on a socket.
-pub(crate) fn is_alive(socket: &Path) -> bool {
-    UnixStream::connect(socket).is_ok()
+pub(crate) fn is_alive(place: &Place) -> bool {
+    UnixStream::connect(place.folder.short_place(&place.name)).is_ok()
 }
 
 /// The ends of a connection.

@@ -30,8 +30,8 @@ pub(crate) const PATIENCE: Duration = Duration::from_millis(200);
 const LONG_PATIENCE: Duration = Duration::from_secs(2);
 
 /// Said of a text that no interface follows.
-const LONE_CR: &str = "lines end in CR, which editors count in different ways: the interface follows the file, not \
-                       this buffer";
+const LONE_CR: &str = "a CR that is not part of CR LF ends a line for some editors only: the picture follows this text \
+                       when it is saved";
 
 /// Codes of JSON-RPC 2.0 and of the protocol.
 const PARSE_ERROR: i32 = -32700;
@@ -193,6 +193,7 @@ impl<W: Write> Server<W> {
             "textDocument/didChange" => self.change(uri, document, parameters),
             "textDocument/didSave" => {
                 // Files that the text names may have changed.
+                self.changed.remove(uri);
                 if let Some(document) = self.documents.get_mut(uri) {
                     document.lower();
                     self.links.saved(document);
@@ -214,6 +215,10 @@ impl<W: Write> Server<W> {
             return self.complain(&format!("received an invalid change of {uri}; reopen it"));
         };
         document.version = named["version"].clone();
+        if document.is_long() {
+            // What is due waits until the text rests.
+            self.due.remove(uri);
+        }
         if let Some(edit) = edit {
             self.links.change(document, edit);
         }
@@ -229,7 +234,8 @@ impl<W: Write> Server<W> {
                 continue;
             };
             if document.is_long() {
-                self.due.insert(uri.clone(), Instant::now() + LONG_PATIENCE);
+                let due = Instant::now() + LONG_PATIENCE;
+                self.due.entry(uri.clone()).or_insert(due);
                 self.changed.insert(uri);
                 continue;
             }
@@ -271,7 +277,7 @@ impl<W: Write> Server<W> {
         self.show(1, message)
     }
 
-    /// Shows a message of this type: 1 is an error, 3 information.
+    /// Shows a message of this type: 1 is an error, 2 a warning, 3 information.
     fn show(&mut self, kind: u8, message: &str) -> io::Result<()> {
         let message = format!("halflight: {message}");
         self.say(

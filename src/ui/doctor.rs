@@ -220,18 +220,19 @@ fn editors() -> Vec<String> {
         Ok(sockets) => sockets,
         Err(error) => return vec![format!("none can connect: {error}")],
     };
-    let shown = sockets.iter().filter_map(|socket| link::shown(socket));
-    let mut lines: Vec<_> = shown
-        .map(|shown| {
+    let line = |socket: &link::Place| match link::shown(socket) {
+        Some(shown) => {
             let editor = shown.editor.map_or_else(
                 || "no editor is connected".to_owned(),
                 |editor| format!("open in {editor}"),
             );
             visible(&format!("{}: {editor}", shown.scene)).into_owned()
-        })
-        .collect();
+        }
+        None => format!("{}: no interface answers", socket.path().display()),
+    };
+    let mut lines: Vec<_> = sockets.iter().map(line).collect();
     if lines.is_empty() {
-        lines.push("no interface is running".to_owned());
+        lines.push("no interface listens".to_owned());
     }
     lines.push("`halflight lsp --print-config` sets an editor up".to_owned());
     lines

@@ -179,6 +179,8 @@ pub enum BufferNews {
         can: Abilities,
         /// Whether its text is the outside text, rather than that of the file.
         is_followed: bool,
+        /// Whether it differs from the file.
+        is_changed: bool,
     },
     /// It was written to the file.
     Saved,

@@ -38,7 +38,9 @@ impl<W: Write> Server<W> {
             None => self.links.left(uri),
             Some(ToEditor::Whole) => self.links.tell_whole(document),
             Some(ToEditor::Busy(editor)) => {
-                self.links.is_busy(uri);
+                if !self.links.is_busy(uri) {
+                    return Ok(());
+                }
                 let name = document.path().file_name().unwrap_or_default();
                 let name = name.to_string_lossy().into_owned();
                 let words = format!("the interface follows {editor}, which has {name} open too");
@@ -51,7 +53,9 @@ impl<W: Write> Server<W> {
             }
             Some(ToEditor::Edit(base, edits)) => {
                 let is_valid = edits.iter().all(|edit| is_span(edit.span));
-                if !is_valid || self.links.version(uri) != Some(base) {
+                // The editor may still be asking its user about the ones before.
+                let is_asked = self.asked.values().any(|(asked, _)| asked == uri);
+                if !is_valid || is_asked || self.links.version(uri) != Some(base) {
                     self.links.tell(uri, &ToInterface::Answer(base, false));
                     return Ok(());
                 }

@@ -2,6 +2,7 @@
 //! what the interface asks for is passed on to the editor.
 
 use std::collections::BTreeMap;
+use std::mem;
 use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -40,6 +41,8 @@ struct Link {
     /// The number of changes since the document was opened.
     version: u64,
     state: State,
+    /// Whether the user was told that the interface follows another editor.
+    is_told: bool,
 }
 
 enum State {
@@ -47,8 +50,8 @@ enum State {
     Connected(u64, Sender),
     /// Another connection is tried at this time.
     Apart(Instant),
-    /// The interface shows the buffer of another editor. Another connection is tried once something
-    /// happens to this one.
+    /// The interface shows the buffer of another editor. Another connection is tried when this one is
+    /// saved.
     Busy,
 }
 
@@ -83,9 +86,12 @@ impl Links {
     /// Begins to look for an interface that shows a document.
     pub(crate) fn open(&mut self, document: &Document) {
         let apart = State::Apart(Instant::now());
-        let (version, state) = (0, apart);
-        self.by_uri
-            .insert(document.uri.clone(), Link { version, state });
+        let link = Link {
+            version: 0,
+            state: apart,
+            is_told: false,
+        };
+        self.by_uri.insert(document.uri.clone(), link);
         self.connect(document);
     }
 
@@ -144,7 +150,10 @@ impl Links {
         };
         link.version += 1;
         let version = link.version;
-        if has_lone_cr(&edit.text) {
+        let placed = edit.placed();
+        let text = document.text().as_bytes();
+        let around = placed.start().saturating_sub(1)..text.len().min(placed.end() + 2);
+        if text[around].contains(&b'\r') && has_lone_cr(document.text()) {
             // The texts would drift apart.
             self.close(&document.uri);
             return;
@@ -156,8 +165,7 @@ impl Links {
             State::Connected(..) => {
                 self.tell(&document.uri, &ToInterface::Change(version, vec![edit]));
             }
-            State::Busy => self.connect(document),
-            State::Apart(_) => {}
+            State::Busy | State::Apart(_) => {}
         }
     }
 
@@ -220,11 +228,13 @@ impl Links {
         }
     }
 
-    /// Leaves an interface that shows the buffer of another editor.
-    pub(crate) fn is_busy(&mut self, uri: &str) {
-        if let Some(link) = self.by_uri.get_mut(uri) {
+    /// Leaves an interface that shows the buffer of another editor; returns whether the user is to be told.
+    pub(crate) fn is_busy(&mut self, uri: &str) -> bool {
+        let link = self.by_uri.get_mut(uri);
+        link.is_some_and(|link| {
             link.state = State::Busy;
-        }
+            !mem::replace(&mut link.is_told, true)
+        })
     }
 }
 

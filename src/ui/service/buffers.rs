@@ -163,12 +163,7 @@ impl Buffers {
         message: ToInterface,
         in_file: impl FnOnce() -> String,
     ) -> Vec<Msg> {
-        if message == ToInterface::Who {
-            let shown = ToEditor::Shown(self.shown());
-            self.send(connection, &shown);
-            return Vec::new();
-        }
-        let other = self.owner.as_ref();
+        let other = self.owner.as_ref().filter(|_| message != ToInterface::Who);
         let other = other.filter(|owner| owner.connection.is_some_and(|owner| owner != connection));
         if let Some(owner) = other {
             let busy = ToEditor::Busy(owner.buffer.editor.clone());
@@ -177,6 +172,11 @@ impl Buffers {
             return Vec::new();
         }
         match message {
+            ToInterface::Who => {
+                let shown = ToEditor::Shown(self.shown());
+                self.send(connection, &shown);
+                Vec::new()
+            }
             ToInterface::Open(mut buffer) => {
                 if self
                     .owner
@@ -206,6 +206,8 @@ impl Buffers {
                 self.owner = Some(owner);
                 news
             }
+            // Of nobody's buffer, or of one that is kept for an editor that is gone.
+            _ if !self.is_owner(connection) => Vec::new(),
             ToInterface::Change(version, edits) => {
                 let Some(owner) = &mut self.owner else {
                     return Vec::new();
@@ -215,7 +217,7 @@ impl Buffers {
                 }
                 let buffer = &mut owner.buffer;
                 let has = |edit: &text::Edit| buffer.text.get(edit.span.range()).is_some();
-                if version != buffer.version + 1 || !edits.iter().all(has) {
+                if Some(version) != buffer.version.checked_add(1) || !edits.iter().all(has) {
                     owner.awaits_whole = true;
                     self.send(connection, &ToEditor::Whole);
                     return Vec::new();
@@ -224,11 +226,9 @@ impl Buffers {
                 buffer.version = version;
                 vec![Msg::FileChanged]
             }
-            ToInterface::Who => Vec::new(),
             ToInterface::Saved => {
                 if let Some(owner) = &mut self.owner {
-                    let saved = as_in_file(&owner.buffer.text, &owner.in_file);
-                    owner.in_file = Arc::new(saved);
+                    owner.in_file = Arc::new(in_file());
                 }
                 vec![Msg::Buffer(BufferNews::Saved)]
             }
@@ -276,8 +276,14 @@ impl Buffers {
             editor: owner.buffer.editor.clone(),
             can: owner.buffer.can,
             is_followed: self.follows(owner),
+            is_changed: as_in_file(&owner.buffer.text, &owner.in_file) != *owner.in_file,
         };
         vec![Msg::Buffer(opened), Msg::FileChanged]
+    }
+
+    fn is_owner(&self, connection: u64) -> bool {
+        let owner = self.owner.as_ref();
+        owner.is_some_and(|owner| owner.connection == Some(connection))
     }
 
     fn follows(&self, owner: &Owner) -> bool {
@@ -345,6 +351,93 @@ mod tests {
             "a\n", "" => "a\n";
         } {
             assert_eq!(as_in_file(text, in_file), kept);
+        }
+    }
+
+    /// Messages of connections 1 and 2, in order, and the text that is read then.
+    fn read_after(messages: &[(u64, Option<ToInterface>)]) -> Option<(String, bool)> {
+        let mut buffers = Buffers::new(Follow::Typing);
+        for (connection, message) in messages {
+            match message {
+                Some(message) => drop(buffers.said(*connection, message.clone(), String::new)),
+                None => drop(buffers.left(*connection)),
+            }
+        }
+        let outside = buffers.outside()?;
+        Some((outside.text, outside.in_file.is_some()))
+    }
+
+    fn open(text: &str) -> Option<ToInterface> {
+        Some(ToInterface::Open(Opening {
+            editor: "nvim".to_owned(),
+            version: 7,
+            text: text.to_owned(),
+            can: link::Abilities::default(),
+            follow: Follow::Typing,
+        }))
+    }
+
+    fn change(version: u64, span: text::Span, text: &str) -> Option<ToInterface> {
+        let text = text.to_owned();
+        Some(ToInterface::Change(
+            version,
+            vec![text::Edit { span, text }],
+        ))
+    }
+
+    #[test]
+    fn a_text_is_that_of_the_first_editor_until_it_is_closed() {
+        use ToInterface::{Close, Saved};
+        let end = text::Span::at(1);
+        let typed = || change(8, end, "b");
+        for (messages, expected) in [
+            (vec![(1, open("a")), (1, typed())], Some(("ab", false))),
+            (
+                vec![(1, open("a")), (2, open("x")), (2, typed())],
+                Some(("a", false)),
+            ),
+            (vec![(2, typed()), (2, Some(Saved))], None),
+            (
+                vec![(1, open("a")), (1, Some(Close)), (2, open("x"))],
+                Some(("x", false)),
+            ),
+            // Of an editor that is gone, nobody changes or replaces the text.
+            (
+                vec![(1, open("a")), (1, None), (2, typed())],
+                Some(("a", true)),
+            ),
+            (
+                vec![(1, open("a")), (1, None), (2, Some(Close))],
+                Some(("a", true)),
+            ),
+            (
+                vec![(1, open("a")), (1, None), (2, open("x"))],
+                Some(("a", true)),
+            ),
+            // What does not fit is not taken, nor what follows, until the whole text arrives.
+            (
+                vec![(1, open("a")), (1, change(9, end, "b"))],
+                Some(("a", false)),
+            ),
+            (
+                vec![(1, open("a")), (1, change(8, text::Span::at(2), ""))],
+                Some(("a", false)),
+            ),
+            (
+                vec![(1, open("é")), (1, change(8, end, "b"))],
+                Some(("é", false)),
+            ),
+            (
+                vec![(1, open("a")), (1, change(9, end, "b")), (1, typed())],
+                Some(("a", false)),
+            ),
+            (
+                vec![(1, open("a")), (1, change(9, end, "b")), (1, open("c"))],
+                Some(("c", false)),
+            ),
+        ] {
+            let expected = expected.map(|(text, is_left)| (text.to_owned(), is_left));
+            assert_eq!(read_after(&messages), expected, "{messages:?}");
         }
     }
 

@@ -59,23 +59,21 @@ fn conflict(
     let keys = answers(app, width.saturating_sub(4));
     let conflicts = &merge.conflicts;
     let height = conflicts.len() + keys.len() + 4;
+    let editor = app.shared.followed_editor();
     let (title, theirs) = match from {
-        MergeSource::File => match &app.shared.buffer {
+        MergeSource::File => match editor {
             None => (" The file changed too ", "file"),
-            Some(buffer) => (" Changed in the editor too ", &*buffer.editor),
+            Some(editor) => (" Changed in the editor too ", editor),
         },
         MergeSource::Kept(..) => (" Recover ", files::text_name(&app.shared)),
     };
     let inner = frame(title, (width, height), area, buffer);
     let (list, _) = layout::split_bottom(inner, keys.len() as u16);
-    let article = if app.shared.buffer.is_some() {
-        ""
-    } else {
-        "The "
+    let who = match editor {
+        Some(editor) => format!("You changed these both in {editor} and here."),
+        None => format!("The {theirs} and your unsaved edits both changed these."),
     };
-    let head = format!(
-        "{article}{theirs} and your edits here both changed these. Which do you want to keep?"
-    );
+    let head = format!("{who} Which do you want to keep?");
     let head = &head;
     Row::new(buffer, list, 0).skip(1).put(head, Style::new());
 

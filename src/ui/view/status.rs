@@ -119,7 +119,7 @@ fn text_segments(app: &App, segments: &mut Segments) {
     }
     let disk = match &shared.disk.state {
         OnDisk::Known => None,
-        OnDisk::Changed if shared.buffer.is_some() => Some("[edits differ]"),
+        OnDisk::Changed if shared.followed_editor().is_some() => Some("[edits differ]"),
         OnDisk::Changed => Some("[disk changed]"),
         OnDisk::Faulty(_) => Some("[errors on disk]"),
         OnDisk::Unreadable => Some("[cannot read file]"),

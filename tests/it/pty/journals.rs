@@ -140,7 +140,8 @@ fn edits_are_stored_once_their_folder_can_be_created() {
     place.write(".local/state/halflight", "in the way");
     let mut session = place.start(&["balls.ray"], WIDE);
     // The reason names the folder, whose path may leave no room for how far the picture is.
-    session.wait_for("recent scenes cannot be remembered");
+    session.wait_for("cannot listen for editors: ");
+    session.wait_for("remembered: ");
     session.send(RADIUS_TO_2);
     session.wait_for("unsaved edits cannot be kept for recovery");
     session.wait_for("[no backup]");

@@ -14,8 +14,11 @@ pub(crate) fn heard(shared: &mut Shared, news: BufferNews) -> Vec<Effect> {
             editor,
             can,
             is_followed,
+            is_changed,
         } => {
-            shared.buffer = Some(Buffer::new(editor, can, is_followed));
+            let mut buffer = Buffer::new(editor, can, is_followed);
+            buffer.is_changed = is_changed;
+            shared.buffer = Some(buffer);
         }
         BufferNews::Saved => {
             if let Some(buffer) = &mut shared.buffer {

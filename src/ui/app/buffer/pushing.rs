@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use crate::app::shared::buffer::Sent;
-use crate::app::{OnDisk, Shared, files, text};
+use crate::app::{Buffer, OnDisk, Shared, files, text};
 use crate::msg::{Effect, Timer};
 use link::ToEditor;
 
@@ -32,11 +32,10 @@ pub(crate) fn follow_edits(shared: &mut Shared) -> Option<Effect> {
 
 /// Whether there are edits to send, and nothing to wait for.
 fn is_ready(shared: &Shared) -> bool {
-    let is_waiting = |buffer: &super::super::shared::buffer::Buffer| {
-        buffer.takes_edits() && buffer.version.is_some() && buffer.sent.is_none()
-    };
+    let can_take =
+        |buffer: &Buffer| buffer.takes_edits() && buffer.version.is_some() && buffer.sent.is_none();
     shared.document.is_dirty()
-        && shared.buffer.as_ref().is_some_and(is_waiting)
+        && shared.buffer.as_ref().is_some_and(can_take)
         && shared.disk.state == OnDisk::Known
         && shared.overlays.dialog.is_none()
         && !is_trying(shared)
@@ -60,10 +59,9 @@ pub(crate) fn push(shared: &mut Shared) -> Vec<Effect> {
     };
     if buffer.sent.take().is_some() {
         buffer.failures += 1;
-        let mut effects = try_again(shared);
+        try_again(shared);
         // What was read meanwhile had to wait for the answer.
-        effects.extend(files::read_finally(shared));
-        return effects;
+        return files::read_finally(shared);
     }
     let (true, Some(base)) = (is_ready, buffer.version) else {
         return Vec::new();
@@ -94,20 +92,19 @@ pub(super) fn answered(shared: &mut Shared, base: u64, is_made: bool, version: u
         // Edits of a former version were refused for that reason.
         buffer.failures += u32::from(version == base);
     }
-    let mut effects = try_again(shared);
+    try_again(shared);
     // What was read meanwhile had to wait for the answer.
-    effects.extend(files::read_finally(shared));
-    effects
+    files::read_finally(shared)
 }
 
 /// Takes edits back that were refused too often; otherwise they are sent again.
-fn try_again(shared: &mut Shared) -> Vec<Effect> {
+fn try_again(shared: &mut Shared) {
     let Some(buffer) = &mut shared.buffer else {
-        return Vec::new();
+        return;
     };
     buffer.due = None;
     if buffer.failures < TRIES {
-        return Vec::new();
+        return;
     }
     buffer.failures = 0;
     shared.jobs.next = None;
@@ -123,5 +120,4 @@ fn try_again(shared: &mut Shared) -> Vec<Effect> {
             "{editor} did not take the change, so it was taken back; {undo} makes it again"
         ));
     }
-    Vec::new()
 }

@@ -81,8 +81,9 @@ fn is_being_pushed(shared: &Shared) -> bool {
 
 /// Leaves as planned once an editor has the last change.
 pub(crate) fn leave_once_pushed(shared: &mut Shared) -> Vec<Effect> {
-    let is_planned = shared.buffer.is_some() && shared.jobs.next.is_some();
-    if is_planned && !shared.document.is_dirty() {
+    let owns = shared.buffer.as_ref().is_some_and(Buffer::takes_edits);
+    let is_planned = owns && shared.jobs.next.is_some() && shared.jobs.export().is_none();
+    if is_planned && !shared.document.is_dirty() && shared.jobs.file_being_saved().is_none() {
         leave_when_done(shared)
     } else {
         Vec::new()

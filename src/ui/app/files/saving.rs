@@ -38,7 +38,8 @@ pub(crate) fn write(shared: &mut Shared, file: Option<PathBuf>, force: Force) ->
         return vec![Effect::CheckPlace(path.clone())];
     }
     let path = file.or_else(|| shared.disk.path.clone());
-    if path.as_ref().is_some_and(|path| shared.disk.is_own(path)) && is_saved_elsewhere(shared) {
+    let is_own = path.as_ref().is_some_and(|path| shared.disk.is_own(path));
+    if is_own && force == Force::Yes && is_saved_elsewhere(shared) {
         return Vec::new();
     }
     match (path, force) {
@@ -71,7 +72,7 @@ pub(super) fn save(shared: &mut Shared) -> Vec<Effect> {
         shared.say("this scene has no file yet: enter a name");
         return Vec::new();
     };
-    if is_saved_elsewhere(shared) {
+    if shared.disk.state != OnDisk::Changed && is_saved_elsewhere(shared) {
         return Vec::new();
     }
     if !shared.document.is_dirty() && shared.disk.state == OnDisk::Known {

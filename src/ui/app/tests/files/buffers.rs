@@ -101,6 +101,9 @@ scripts! {
 
         jjjel
         @typed 1 0 0 0 => 9 0 0 | asks conflict 0 0.1 9
+        // A postponed question returns.
+        <Esc> | not asks | > w  | not says save in nvim | does read scene.ray
+        @typed 1 0 0 0 => 9 0 0 | asks conflict 0 0.1 9
         m<Enter>                | text 0 0 0 => 0.1 0 0 | dirty | does wait push 100
         @elapsed push           | does first edit version 1: 48..49→0.1, wait push 3000
     ");

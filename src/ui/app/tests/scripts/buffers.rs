@@ -48,6 +48,7 @@ impl Session {
                         shows: has("shows"),
                     },
                     is_followed: !has("unfollowed"),
+                    is_changed: has("changed"),
                 })
             }
             ("buffer", "saved") => Msg::Buffer(BufferNews::Saved),
