@@ -141,7 +141,7 @@ fn edits_are_stored_once_their_folder_can_be_created() {
     let mut session = place.start(&["balls.ray"], WIDE);
     // The reason names the folder, whose path may leave no room for how far the picture is.
     session.wait_for("cannot listen for editors: ");
-    session.wait_for("remembered: ");
+    session.wait_for("recent scenes ");
     session.send(RADIUS_TO_2);
     session.wait_for("unsaved edits cannot be kept for recovery");
     session.wait_for("[no backup]");

@@ -149,9 +149,9 @@ fn a_home_that_can_hold_no_files_is_no_obstacle() {
         let arguments = ["--color", "24", "balls.ray"];
         let mut session = Session::start(place.directory.path(), &arguments, WIDE, &environment);
         // Its path may leave no room for how far the picture is.
-        session.wait_for("remembered: ");
+        session.wait_for("recent scenes ");
         session.send(ESC);
-        wait_until_gone(&mut session, "remembered: ");
+        wait_until_gone(&mut session, "recent scenes ");
         wait_for_rest(&mut session);
         quit(session);
     }
