@@ -117,9 +117,13 @@ fn text_segments(app: &App, segments: &mut Segments) {
         let chip = format!("⇄ {}{mark}", visible(&buffer.editor));
         segments.say(Rank::Unsaved, chip, theme::ACCENT);
     }
+    let is_followed = shared
+        .buffer
+        .as_ref()
+        .is_some_and(|buffer| buffer.followed().is_some());
     let disk = match &shared.disk.state {
         OnDisk::Known => None,
-        OnDisk::Changed if shared.followed_editor().is_some() => Some("[edits differ]"),
+        OnDisk::Changed if is_followed => Some("[edits differ]"),
         OnDisk::Changed => Some("[disk changed]"),
         OnDisk::Faulty(_) => Some("[errors on disk]"),
         OnDisk::Unreadable => Some("[cannot read file]"),

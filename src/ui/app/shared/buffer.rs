@@ -54,6 +54,11 @@ impl Buffer {
         }
     }
 
+    /// The editor, if its buffer is the outside text.
+    pub fn followed(&self) -> Option<&str> {
+        self.is_followed.then_some(&*self.editor)
+    }
+
     /// The editor, if undoing and saving are done there.
     pub(crate) fn owner(&self) -> Option<&str> {
         self.takes_edits().then_some(&*self.editor)

@@ -211,12 +211,6 @@ impl Shared {
         matches!(self.disk.state, OnDisk::Faulty(_)) && self.error_count() == 0
     }
 
-    /// The editor whose buffer is the outside text.
-    pub fn followed_editor(&self) -> Option<&str> {
-        let buffer = self.buffer.as_ref().filter(|buffer| buffer.is_followed);
-        buffer.map(|buffer| &*buffer.editor)
-    }
-
     /// Whether the file holds the text.
     pub(crate) fn is_saved(&self) -> bool {
         !self.document.is_dirty() && self.disk.state == OnDisk::Known
