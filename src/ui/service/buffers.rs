@@ -367,17 +367,17 @@ mod tests {
         Some((outside.text, outside.in_file.is_some()))
     }
 
-    fn open(text: &str) -> Option<ToInterface> {
-        Some(ToInterface::Open(Opening {
+    fn open(text: &str) -> ToInterface {
+        ToInterface::Open(Opening {
             editor: "nvim".to_owned(),
             version: 7,
             text: text.to_owned(),
             can: link::Abilities::default(),
             follow: Follow::Typing,
-        }))
+        })
     }
 
-    fn change(version: u64, span: text::Span, text: &str) -> Option<ToInterface> {
+    fn change(version: u64, span: text::Span, text: &str) -> ToInterface {
         let text = text.to_owned();
         Some(ToInterface::Change(
             version,
@@ -391,48 +391,66 @@ mod tests {
         let end = text::Span::at(1);
         let typed = || change(8, end, "b");
         for (messages, expected) in [
-            (vec![(1, open("a")), (1, typed())], Some(("ab", false))),
             (
-                vec![(1, open("a")), (2, open("x")), (2, typed())],
+                vec![(1, Some(open("a"))), (1, Some(typed()))],
+                Some(("ab", false)),
+            ),
+            (
+                vec![
+                    (1, Some(open("a"))),
+                    (2, Some(open("x"))),
+                    (2, Some(typed())),
+                ],
                 Some(("a", false)),
             ),
-            (vec![(2, typed()), (2, Some(Saved))], None),
+            (vec![(2, Some(typed())), (2, Some(Saved))], None),
             (
-                vec![(1, open("a")), (1, Some(Close)), (2, open("x"))],
+                vec![(1, Some(open("a"))), (1, Some(Close)), (2, Some(open("x")))],
                 Some(("x", false)),
             ),
             // Of an editor that is gone, nobody changes or replaces the text.
             (
-                vec![(1, open("a")), (1, None), (2, typed())],
+                vec![(1, Some(open("a"))), (1, None), (2, Some(typed()))],
                 Some(("a", true)),
             ),
             (
-                vec![(1, open("a")), (1, None), (2, Some(Close))],
+                vec![(1, Some(open("a"))), (1, None), (2, Some(Close))],
                 Some(("a", true)),
             ),
             (
-                vec![(1, open("a")), (1, None), (2, open("x"))],
+                vec![(1, Some(open("a"))), (1, None), (2, Some(open("x")))],
                 Some(("a", true)),
             ),
             // What does not fit is not taken, nor what follows, until the whole text arrives.
             (
-                vec![(1, open("a")), (1, change(9, end, "b"))],
+                vec![(1, Some(open("a"))), (1, Some(change(9, end, "b")))],
                 Some(("a", false)),
             ),
             (
-                vec![(1, open("a")), (1, change(8, text::Span::at(2), ""))],
+                vec![
+                    (1, Some(open("a"))),
+                    (1, Some(change(8, text::Span::at(2), ""))),
+                ],
                 Some(("a", false)),
             ),
             (
-                vec![(1, open("é")), (1, change(8, end, "b"))],
+                vec![(1, Some(open("é"))), (1, Some(change(8, end, "b")))],
                 Some(("é", false)),
             ),
             (
-                vec![(1, open("a")), (1, change(9, end, "b")), (1, typed())],
+                vec![
+                    (1, Some(open("a"))),
+                    (1, Some(change(9, end, "b"))),
+                    (1, Some(typed())),
+                ],
                 Some(("a", false)),
             ),
             (
-                vec![(1, open("a")), (1, change(9, end, "b")), (1, open("c"))],
+                vec![
+                    (1, Some(open("a"))),
+                    (1, Some(change(9, end, "b"))),
+                    (1, Some(open("c"))),
+                ],
                 Some(("c", false)),
             ),
         ] {

@@ -59,8 +59,8 @@ fn conflict(
     let keys = answers(app, width.saturating_sub(4));
     let conflicts = &merge.conflicts;
     let height = conflicts.len() + keys.len() + 4;
-    let buffer = app.shared.buffer.as_ref();
-    let editor = buffer.and_then(|buffer| buffer.followed());
+    let open = app.shared.buffer.as_ref();
+    let editor = open.and_then(|buffer| buffer.followed());
     let (title, theirs) = match from {
         MergeSource::File => match editor {
             None => (" The file changed too ", "file"),
