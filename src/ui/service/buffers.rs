@@ -379,10 +379,7 @@ mod tests {
 
     fn change(version: u64, span: text::Span, text: &str) -> ToInterface {
         let text = text.to_owned();
-        Some(ToInterface::Change(
-            version,
-            vec![text::Edit { span, text }],
-        ))
+        ToInterface::Change(version, vec![text::Edit { span, text }])
     }
 
     #[test]
