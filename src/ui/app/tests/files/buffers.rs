@@ -177,6 +177,18 @@ scripts! {
         w      | does save other.ray
     ");
 
+    /// The editor keeps the focus where it is.
+    a_click_in_the_picture_shows_the_line: edited().play(r"
+        @shows half
+        @down picture 2,2 | at object 2 | does show 113..165
+
+        // Of an editor that cannot be asked.
+        @buffer opened edits
+        @typed 0 opened
+        @shows half
+        @down picture 2,2 | at object 2 | not does show 113..165
+    ");
+
     an_editor_without_edits_is_only_followed: ray().play(r"
         @buffer opened
         @typed 1 1.5 => 1.7 | text file
