@@ -20,6 +20,8 @@ pub(crate) struct Buffers {
     follow: Follow,
     /// The path of the scene.
     scene: PathBuf,
+    /// The number of scenes so far.
+    pub(super) scenes: u64,
     /// The socket; dropping it ends it.
     listening: Option<Listening>,
     senders: BTreeMap<u64, Sender>,
@@ -54,6 +56,7 @@ impl Buffers {
         Self {
             follow,
             scene: PathBuf::new(),
+            scenes: 0,
             listening: None,
             senders: BTreeMap::new(),
             owner: None,
@@ -68,6 +71,7 @@ impl Buffers {
         hear: impl Fn(Heard) + Clone + Send + 'static,
     ) -> Vec<Msg> {
         scene.clone_into(&mut self.scene);
+        self.scenes += 1;
         self.senders.clear();
         let former = self.owner.take();
         let mut news: Vec<_> = former

@@ -34,8 +34,8 @@ enum Request {
     Read(PathBuf, Baseline, Work),
     /// Read the scene of this file, in place of another.
     Open(PathBuf, Language, Work),
-    /// Take what an editor said.
-    Hear(Heard),
+    /// Take what an editor said, on the socket of the scene of this number.
+    Hear(u64, Heard),
     /// Send this to the editor that has the scene open.
     Tell(ToEditor),
     /// Forget the buffer of an editor that is gone.
@@ -62,8 +62,9 @@ impl SceneLoader {
             let mut watching = Watching::new(Polled::Scene, method, send.clone());
             let watch = |path: Option<PathBuf>, buffers: &mut Buffers| {
                 let requests = requests.clone();
+                let scene = buffers.scenes + u64::from(path.is_some());
                 // The thread ends only with the program.
-                let hear = move |heard| drop(requests.send(Request::Hear(heard)));
+                let hear = move |heard| drop(requests.send(Request::Hear(scene, heard)));
                 let Some(path) = path else {
                     buffers.listen_again(hear);
                     return Vec::new();
@@ -258,7 +259,9 @@ fn last(
         match request {
             // Before the file is read, so that no later change is missed.
             Request::Watch(path) => watch(Some(path), buffers).into_iter().for_each(&send),
-            Request::Hear(heard) => buffers.heard(heard).into_iter().for_each(&send),
+            // What was said on the socket of a former scene is not about this one.
+            Request::Hear(scene, _) if scene != buffers.scenes => {}
+            Request::Hear(_, heard) => buffers.heard(heard).into_iter().for_each(&send),
             Request::Tell(message) => buffers.tell(&message),
             Request::Forget => buffers.forget().into_iter().for_each(&send),
             Request::End => {}
