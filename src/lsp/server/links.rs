@@ -158,15 +158,7 @@ impl Links {
             self.close(&document.uri);
             return;
         }
-        let Some(link) = self.by_uri.get_mut(&document.uri) else {
-            return;
-        };
-        match link.state {
-            State::Connected(..) => {
-                self.tell(&document.uri, &ToInterface::Change(version, vec![edit]));
-            }
-            State::Busy | State::Apart(_) => {}
-        }
+        self.tell(&document.uri, &ToInterface::Change(version, vec![edit]));
     }
 
     /// Tells the interface that the file was saved.

@@ -63,8 +63,8 @@ impl Buffers {
         }
     }
 
-    /// Listens for editors of this scene from now on, instead of those of another one; returns why that is
-    /// impossible, if so.
+    /// Listens for editors of this scene from now on, instead of those of another one; returns what that
+    /// changes, and why it is impossible, if so.
     pub(super) fn listen(
         &mut self,
         scene: &Path,
@@ -261,12 +261,11 @@ impl Buffers {
 
     /// Takes the end of a connection. A buffer that was not closed remains until it is forgotten.
     pub(crate) fn left(&mut self, connection: u64) -> Vec<Msg> {
-        let is_followed = self.outside().is_some();
         let is_owner = |owner: &mut Owner| owner.connection == Some(connection);
         let Some(mut owner) = self.owner.take_if(is_owner) else {
             return Vec::new();
         };
-        if !is_followed {
+        if !self.follows(&owner) {
             return vec![Msg::Buffer(BufferNews::Closed)];
         }
         owner.connection = None;

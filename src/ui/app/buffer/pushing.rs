@@ -110,11 +110,7 @@ fn try_again(shared: &mut Shared) {
     shared.jobs.next = None;
     let editor = buffer.editor.clone();
     let back = shared.document.edits_to_saved();
-    if text::make_step(
-        shared,
-        &back,
-        format!("taken back: {editor} refused the edits"),
-    ) {
+    if text::make_step(shared, &back, format!("taken back: not made in {editor}")) {
         let undo = shared.key_for("undo");
         shared.fail(format!(
             "{editor} did not take the change, so it was taken back; {undo} makes it again"
