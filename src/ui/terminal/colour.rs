@@ -87,6 +87,15 @@ impl ColourDepth {
         )
     }
 
+    /// Returns the colour that a terminal of this depth shows for another.
+    pub(crate) fn shown(self, colour: Color) -> Color {
+        match self.ink(colour) {
+            Ink::Default => Color::Reset,
+            Ink::Index(index) => Color::Indexed(index),
+            Ink::Rgb(red, green, blue) => Color::Rgb(red, green, blue),
+        }
+    }
+
     /// Returns the nearest colour at this depth.
     pub(super) fn ink(self, colour: Color) -> Ink {
         let ink = match colour {

@@ -6,7 +6,7 @@ use unicode_width::UnicodeWidthStr;
 use super::colour::ColourDepth;
 use super::pen::{Pen, Style};
 
-/// Encodes a screen in 24-bit colour.
+/// Encodes a screen in the colours that its cells have.
 pub(crate) fn printed(cells: &Buffer) -> Vec<u8> {
     let mut out = Vec::new();
     for y in 0..cells.area.height {

@@ -118,6 +118,30 @@ fn edits_in_a_terminal_without_room_for_the_picture_are_taken() {
 }
 
 #[test]
+fn a_screen_has_the_colours_of_its_terminal() {
+    let place = Place::new();
+    place.write("default.ray", DEFAULT);
+    for (colours, codes) in [("mono", 0..30), ("16", 0..108), ("256", 0..256)] {
+        let words = format!("default.ray --color {colours} --screen 60x20 --dump-frame a.ansi");
+        place.stderr(&words, 0);
+        let screen = String::from_utf8(place.read("a.ansi")).expect("text");
+        let styles = screen.split("\x1b[").skip(1);
+        for style in styles.filter_map(|style| style.split_once('m')) {
+            assert!(!style.0.contains("8;2;"), "{colours}: {style:?}");
+            assert!(
+                colours == "256" || !style.0.contains("8;5;"),
+                "{colours}: {style:?}"
+            );
+            let mut numbers = style.0.split(';').filter_map(|code| code.parse().ok());
+            assert!(
+                numbers.all(|code: i32| codes.contains(&code)),
+                "{colours}: {style:?}"
+            );
+        }
+    }
+}
+
+#[test]
 fn a_screen_never_replaces_a_file_that_the_scene_uses() {
     let place = Place::new();
     let text = TEXTURED.replace("skin.ppm", "skin.png");

@@ -140,7 +140,7 @@ impl Session {
         let written = if is_used {
             Err(io::Error::other("the scene uses it; name another file"))
         } else {
-            snapshot::write(cells, path, format, theme)
+            snapshot::write(cells.clone(), path, format, (theme, self.depth))
         };
         written.map_err(|source| Error::Frame {
             path: path.to_owned(),

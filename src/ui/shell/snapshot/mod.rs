@@ -9,7 +9,7 @@ use std::path::Path;
 use ratatui::buffer::Buffer;
 use unicode_width::UnicodeWidthStr;
 
-use crate::terminal;
+use crate::terminal::{self, ColourDepth};
 use crate::theme::Theme;
 
 /// The format of a written screen.
@@ -17,7 +17,7 @@ use crate::theme::Theme;
 pub enum Format {
     /// `.txt`: the characters, without spaces at the ends of lines.
     Text,
-    /// `.ansi`: the characters with escape codes for 24-bit colour, to print in a terminal.
+    /// `.ansi`: the characters with escape codes for colours, to print in a terminal.
     Ansi,
     /// `.png`: a picture of the screen.
     Picture,
@@ -35,9 +35,18 @@ impl Format {
     }
 }
 
-/// Writes a screen. Replaces an existing file.
-pub(super) fn write(cells: &Buffer, path: &Path, format: Format, theme: Theme) -> io::Result<()> {
+/// Writes a screen of a terminal with these colours. Replaces an existing file.
+pub(super) fn write(
+    mut cells: Buffer,
+    path: &Path,
+    format: Format,
+    (theme, depth): (Theme, ColourDepth),
+) -> io::Result<()> {
     let confirm = || Ok::<(), io::Error>(());
+    for cell in &mut cells.content {
+        [cell.fg, cell.bg] = [cell.fg, cell.bg].map(|colour| depth.shown(colour));
+    }
+    let cells = &cells;
     let bytes = match format {
         Format::Text => text(cells).into_bytes(),
         Format::Ansi => terminal::printed(cells),
