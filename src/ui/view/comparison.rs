@@ -100,7 +100,7 @@ fn worst(app: &App, found: &Comparison, lines: &mut Lines, inks: &mut Inks) {
         row.put(&format!("{},{}", worst.x, worst.y), style);
         row.skip_to(column);
         for colour in worst.colours {
-            let style = Style::new().fg(inks.colour(colour, 0, 0));
+            let style = Style::new().fg(inks.colour(colour));
             row.put("██", style).skip(1);
         }
         row.put(&format!("by {}", worst.largest()), style);

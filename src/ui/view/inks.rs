@@ -1,6 +1,6 @@
 //! Inks: how the pixels of pictures become coloured cells.
 
-use ratatui::style::Color;
+use ratatui::style::{Color, Style};
 
 use super::few_colours::Palette;
 use super::mosaic::Mosaic;
@@ -12,20 +12,22 @@ use crate::theme::Theme;
 pub enum Drawing {
     /// Half blocks.
     HalfBlocks,
+    /// Characters chosen by shape, for few colours or none.
+    Sketch,
     /// Block characters of more pixels in two colours.
     Mosaic(Mosaic),
     /// A picture in real pixels, which the terminal puts there.
     Picture,
 }
 
-/// How pixels are shown on a terminal of a colour depth: in true colour, dithered to fewer colours, or
-/// without any by the brightness of characters.
+/// How pixels are shown on a terminal of a colour depth: in true colour, in the nearest of fewer colours,
+/// or without any by the brightness of characters.
 #[derive(Debug)]
 pub struct Inks {
     pub(super) depth: ColourDepth,
     /// What fills the cells of pictures.
     pub drawing: Drawing,
-    /// A cache of mixes of few colours.
+    /// The few colours, if there are any.
     palette: Option<Palette>,
 }
 
@@ -49,6 +51,11 @@ impl Inks {
         self.depth != ColourDepth::Mono
     }
 
+    /// Whether there are only a few.
+    pub(super) fn has_few(&self) -> bool {
+        self.palette.is_some()
+    }
+
     /// The theme to use when this one is wanted: without colours, attributes take their place.
     pub(super) fn theme(&self, wanted: Theme) -> Theme {
         match self.depth {
@@ -57,11 +64,27 @@ impl Inks {
         }
     }
 
-    /// The terminal colour of a pixel at a position.
-    pub(super) fn colour(&mut self, colour: [u8; 3], x: u32, y: u32) -> Color {
+    /// The few colours, if there are any.
+    pub(super) fn palette(&mut self) -> Option<&mut Palette> {
+        self.palette.as_mut()
+    }
+
+    /// The terminal colour of a pixel.
+    pub(super) fn colour(&mut self, colour: [u8; 3]) -> Color {
         match &mut self.palette {
-            Some(palette) => Color::Indexed(palette.at(colour, x, y)),
+            Some(palette) => Palette::colour(palette.nearest(colour)),
             None => colour.into(),
+        }
+    }
+
+    /// The symbol and the style of a cell of one colour.
+    pub(super) fn flat(&mut self, colour: [u8; 3]) -> (&'static str, Style) {
+        match &mut self.palette {
+            Some(palette) => {
+                let tint = palette.tint(colour);
+                (tint.symbol(), tint.style())
+            }
+            None => (" ", Style::reset().fg(colour.into()).bg(colour.into())),
         }
     }
 }

@@ -4,12 +4,10 @@
 //! and never panic, regardless of the size of the screen. Text from files reaches the screen
 //! through [`row`], which shows control characters instead of sending them.
 
-mod characters;
 mod comparison;
 mod completions;
 mod current;
 mod dialog;
-mod dither;
 mod errors;
 mod few_colours;
 mod fields;
@@ -32,6 +30,7 @@ mod pixel;
 mod rays;
 mod row;
 mod sequence;
+mod sketch;
 mod status;
 mod symbols;
 mod tiles;
@@ -53,6 +52,7 @@ use super::{layout, theme};
 pub use graphics_gap::pixmap;
 pub use inks::{Drawing, Inks};
 pub use mosaic::Mosaic;
+pub use sketch::SKETCH;
 
 /// Draws the whole screen. Returns the cells that are left to the terminal's own picture: none if
 /// anything but marks and words of the picture is over it, which is then drawn in half blocks.

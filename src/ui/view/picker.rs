@@ -128,16 +128,13 @@ fn swatches(picker: &ColourPicker, lines: &PickerLines, inks: &mut Inks, buffer:
     }
 }
 
-/// Paints a cell in a colour, as two pixels if it must be dithered; leaves it alone without colours.
+/// Paints a cell in a colour; leaves it alone without colours.
 fn paint(colour: Rgb, at: Position, inks: &mut Inks, buffer: &mut Buffer) {
     if !inks.have_colours() {
         return;
     }
-    let pixel = bytes(colour);
-    let (x, y) = (u32::from(at.x), 2 * u32::from(at.y));
-    let (upper, lower) = (inks.colour(pixel, x, y), inks.colour(pixel, x, y + 1));
-    let symbol = if upper == lower { " " } else { "▀" };
-    put_at(at, symbol, Style::new().fg(upper).bg(lower), buffer);
+    let (symbol, style) = inks.flat(bytes(colour));
+    put_at(at, symbol, style, buffer);
 }
 
 /// The marker of a bar over a colour: black or white, by the luminance.

@@ -1,19 +1,18 @@
 //! The picture: two pixels per cell, drawn as `▀` with the upper pixel as foreground and the lower
-//! one as background; more as mosaics; a character per cell on terminals without colours. Cells that
-//! the terminal fills with its own picture are left to it.
+//! one as background; more as mosaics; by shape where there are few colours or none. Cells that the
+//! terminal fills with its own picture are left to it.
 
 use std::borrow::Cow;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::{Color, Modifier, Style};
+use ratatui::style::{Color, Style};
 use unicode_width::UnicodeWidthStr;
 
-use super::characters::Characters;
 use super::graphics_gap::leave;
 use super::inks::{Drawing, Inks};
 use super::row::{Row, put_at};
-use super::{comparison, pixel, symbols, tiles, values, wireframe};
+use super::{comparison, pixel, sketch, symbols, tiles, values, wireframe};
 use crate::app::{App, CellImage, FirstReading, Grid, Shared, display, inspect};
 use crate::framing::clear;
 use crate::keymap::{Context, Mode};
@@ -52,6 +51,9 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     };
     match inks.drawing {
         Drawing::HalfBlocks => paint(&resampled(size), inks, cells, buffer),
+        Drawing::Sketch => {
+            sketch::paint(&resampled(sketch::GRID.size(size)), inks, cells, buffer);
+        }
         Drawing::Mosaic(mosaic) => {
             let (across, down) = mosaic.grid();
             let grid = Grid { across, down };
@@ -246,6 +248,9 @@ fn plot(
 
 /// Draws the pixels of a picture over its cells.
 pub(super) fn paint(shown: &CellImage, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
+    if !inks.have_colours() {
+        return sketch::paint(&sketch::finer(shown), inks, area, buffer);
+    }
     let width = shown.size.width;
     let pixel = |x: u32, y: u32| -> Option<Pixel> {
         let at = y as usize * width as usize + x as usize;
@@ -253,20 +258,15 @@ pub(super) fn paint(shown: &CellImage, inks: &mut Inks, area: Rect, buffer: &mut
         Some(Pixel {
             colour: *colour,
             outlined: shown.is_outlined(at),
-            at: (x, y),
         })
     };
-    let characters = (inks.depth == ColourDepth::Mono).then(|| Characters::of(shown));
     for row in 0..area.height {
         for column in 0..area.width {
             let (x, y) = (u32::from(column), 2 * u32::from(row));
             let cell = buffer.cell_mut((area.x + column, area.y + row));
             if let (Some(cell), Some(upper)) = (cell, pixel(x, y)) {
                 let lower = pixel(x, y + 1);
-                let (symbol, style) = match &characters {
-                    Some(characters) => (characters.at(x, y / 2), marked(upper, lower)),
-                    None => half_block(upper, lower, inks),
-                };
+                let (symbol, style) = half_block(upper, lower, inks);
                 cell.set_symbol(symbol).set_style(style);
             }
         }
@@ -279,31 +279,38 @@ struct Pixel {
     colour: [u8; 3],
     /// Whether the pixel belongs to the outline.
     outlined: bool,
-    /// Position of the pixel, which dithering depends on.
-    at: (u32, u32),
 }
 
+/// The greatest difference of two pixels' channels that few colours do not show.
+const ALIKE: u8 = 8;
+
 fn half_block(upper: Pixel, lower: Option<Pixel>, inks: &mut Inks) -> (&'static str, Style) {
+    if let Some(lower) = lower.filter(|lower| inks.has_few() && are_alike(upper, *lower)) {
+        let mean = |at: usize| upper.colour[at].midpoint(lower.colour[at]);
+        return inks.flat([0, 1, 2].map(mean));
+    }
     let mut colour = |pixel: Pixel| {
         if pixel.outlined {
-            return theme::OUTLINE.into();
+            theme::OUTLINE.into()
+        } else {
+            inks.colour(pixel.colour)
         }
-        let (x, y) = pixel.at;
-        inks.colour(pixel.colour, x, y)
     };
     let style = Style::reset().fg(colour(upper));
     ("▀", style.bg(lower.map_or(Color::Reset, colour)))
 }
 
-/// The style of an outline without colours.
-fn marked(upper: Pixel, lower: Option<Pixel>) -> Style {
-    let is_marked = upper.outlined || lower.is_some_and(|lower| lower.outlined);
-    let mark = is_marked.then_some(Modifier::REVERSED);
-    Style::reset().add_modifier(mark.unwrap_or_default())
+/// Whether two pixels are of nearly one colour, and neither of them of the outline.
+fn are_alike(one: Pixel, other: Pixel) -> bool {
+    let pairs = one.colour.into_iter().zip(other.colour);
+    let is_alike = |(one, other): (u8, u8)| one.abs_diff(other) <= ALIKE;
+    !one.outlined && !other.outlined && pairs.into_iter().all(is_alike)
 }
 
 #[cfg(test)]
 mod tests {
+    use ratatui::style::Modifier;
+
     use super::*;
     use crate::keymap::bound;
     use crate::layout::tests::size;

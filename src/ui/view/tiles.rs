@@ -38,10 +38,14 @@ pub(super) fn paint(
             *shown = pixel(x, y);
         }
         let tile = mosaic.tile(&pixels);
-        let (x, y) = (u32::from(column), 2 * u32::from(row));
+        if tile.ink == tile.paper && inks.has_few() {
+            let (symbol, style) = inks.flat(tile.paper);
+            buffer[position].set_symbol(symbol).set_style(style);
+            continue;
+        }
         let style = Style::reset()
-            .fg(inks.colour(tile.ink, x, y))
-            .bg(inks.colour(tile.paper, x, y + 1));
+            .fg(inks.colour(tile.ink))
+            .bg(inks.colour(tile.paper));
         buffer[position].set_char(tile.symbol).set_style(style);
     }
 }

@@ -5,7 +5,7 @@ use std::time::Instant;
 use crate::pixels::Pixels;
 use crate::terminal::tmux::{self, Client};
 use crate::terminal::{ColourDepth, Link, MOST_PLACEHOLDERS, Means, Protocol, Reply, Wrapping};
-use crate::view::{Drawing, Mosaic};
+use crate::view::{Drawing, Mosaic, SKETCH};
 
 /// The most pixels of a screen that are traced and sent as pictures: at more, a frame takes longer
 /// than it is shown. Over a limited line, about as many as half a second carries.
@@ -114,6 +114,7 @@ impl Known {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Manner {
     Half,
+    Sketch,
     Mosaic(Mosaic),
     Picture(Means),
 }
@@ -135,7 +136,7 @@ impl Manner {
         let placeholders = known.placeholders().filter(|_| can_name);
         let mosaic = |mosaic| {
             if depth == ColourDepth::Mono {
-                Self::Half
+                Self::Sketch
             } else {
                 Self::Mosaic(mosaic)
             }
@@ -155,7 +156,7 @@ impl Manner {
         };
         let wrapped = protocol.and_then(|protocol| Some((protocol, known.wrapping(protocol)?)));
         match (wrapped, cell) {
-            (None, _) | (Some((Protocol::Sixel, _)), None) => Self::Half,
+            (None, _) | (Some((Protocol::Sixel, _)), None) => Self::blocks(choice, depth),
             (Some((protocol, wrapping)), cell) => Self::Picture(Means {
                 protocol,
                 wrapping,
@@ -164,10 +165,20 @@ impl Manner {
         }
     }
 
+    /// What to draw with where there are only characters.
+    fn blocks(choice: Pixels, depth: ColourDepth) -> Self {
+        match depth {
+            ColourDepth::Mono => Self::Sketch,
+            ColourDepth::Palette16 if choice != Pixels::Half => Self::Sketch,
+            _ => Self::Half,
+        }
+    }
+
     /// How the view draws.
     pub(super) fn drawing(self) -> Drawing {
         match self {
             Self::Half => Drawing::HalfBlocks,
+            Self::Sketch => Drawing::Sketch,
             Self::Mosaic(mosaic) => Drawing::Mosaic(mosaic),
             Self::Picture(_) => Drawing::Picture,
         }
@@ -177,7 +188,7 @@ impl Manner {
     pub(super) fn means(self) -> Option<Means> {
         match self {
             Self::Picture(means) => Some(means),
-            Self::Half | Self::Mosaic(_) => None,
+            Self::Half | Self::Sketch | Self::Mosaic(_) => None,
         }
     }
 
@@ -186,6 +197,7 @@ impl Manner {
     pub(super) fn grid(self, (columns, rows): (u16, u16), most: u32) -> (u16, u16) {
         let means = match self {
             Self::Half => return (1, 2),
+            Self::Sketch => return SKETCH,
             Self::Mosaic(mosaic) => return mosaic.grid(),
             Self::Picture(means) => means,
         };
@@ -347,7 +359,21 @@ mod tests {
         let known = known(&[Reply::Shows(Protocol::Kitty), Reply::Attributes]);
         for choice in [Pixels::Auto, Pixels::Octant, Pixels::Half] {
             let manner = Manner::of(choice, ColourDepth::Mono, &known, SCREEN, CELL);
-            assert_eq!(manner, Manner::Half);
+            assert_eq!(manner, Manner::Sketch);
+        }
+    }
+
+    #[test]
+    fn sixteen_colours_draw_shapes_unless_half_blocks_are_chosen() {
+        let nothing = Known::default();
+        for (choice, depth, expected) in table! {
+            Pixels::Auto, ColourDepth::Palette16 => Manner::Sketch;
+            Pixels::Half, ColourDepth::Palette16 => Manner::Half;
+            Pixels::Quadrant, ColourDepth::Palette16 => Manner::Mosaic(Mosaic::Quadrant);
+            Pixels::Auto, ColourDepth::Palette256 => Manner::Half;
+        } {
+            let manner = Manner::of(choice, depth, &nothing, SCREEN, CELL);
+            assert_eq!(manner, expected, "{choice:?} {depth:?}");
         }
     }
 

@@ -4,7 +4,7 @@ use std::io;
 use std::time::Instant;
 
 use super::Session;
-use super::pixels::{Manner, most_pixels};
+use super::pixels::{Known, Manner, most_pixels};
 use crate::msg::Msg;
 use crate::pixels::Pixels;
 use crate::terminal::query::{self, Question};
@@ -64,12 +64,14 @@ impl Session {
         let cell = terminal::cell_size().filter(|_| !is_page);
         let choice = match self.app.shared.pixels {
             // A page has cells only.
-            Pixels::Kitty | Pixels::Sixel | Pixels::Iterm | Pixels::Auto if is_page => Pixels::Half,
-            Pixels::Auto if !self.shows_pictures() => Pixels::Half,
+            Pixels::Kitty | Pixels::Sixel | Pixels::Iterm if is_page => Pixels::Auto,
             choice => choice,
         };
         let screen = self.app.shared.terminal;
-        Manner::of(choice, self.depth, &self.known, screen, cell)
+        let is_plain = choice == Pixels::Auto && (is_page || !self.shows_pictures());
+        let nothing = Known::default();
+        let known = if is_plain { &nothing } else { &self.known };
+        Manner::of(choice, self.depth, known, screen, cell)
     }
 
     /// Draws pixels with what the user wants and the terminal can show.
