@@ -1,6 +1,7 @@
 //! Picture files: writing frames, reading textures. Of scenes it knows only pictures and their
 //! sizes.
 
+mod animation;
 mod exr;
 mod exr_colours;
 mod input;
@@ -19,6 +20,7 @@ use std::path::Path;
 use render::Frames;
 use scene::Size;
 
+pub use animation::write_animation;
 pub use exr::layer_bytes;
 pub use input::Input;
 pub use metadata::record;

@@ -16,7 +16,7 @@ use super::beginning::Beginning;
 use super::continuing::TraceEnd;
 use super::effects::Runtime;
 use super::ending::{Ending, Error};
-use super::script::Script;
+use super::script::{Recorder, Script};
 use crate::app::{App, display, exports, files};
 use crate::event::{Event, sending};
 use crate::msg::{Effect, Msg, Target};
@@ -65,6 +65,7 @@ pub(crate) fn run(
         manner: Manner::Half,
         inbox,
         script,
+        recorder: Recorder::default(),
         is_played: false,
         assets: options.assets.clone(),
         failed: None,
@@ -100,6 +101,8 @@ struct Session {
     inbox: Receiver<Event>,
     /// Where the keys come from, if not from the terminal.
     script: Option<Script>,
+    /// What the script records.
+    recorder: Recorder,
     /// Whether the step to play next has shown a frame of a sequence that plays.
     is_played: bool,
     /// Folders that the scene's files may be in, besides those around it.

@@ -5,9 +5,13 @@
 //! j Enter "0.5" Enter Ctrl-R     keys, and text in quotes, which is typed
 //! click 10,3  paste "1 2 3"      the mouse, and a paste
 //! resize 100x30                  another size of the screen
-//! wait  dump FILE                awaits complete pictures; writes the screen
+//! wait  dump FILE                awaits complete pictures; writes the screen, or adds it to a .gif
+//! editor-open FILE               shows a file in an editor's pane of the .gif
+//! editor-find "a"  editor-type "b"  editor-save
 //! ```
 
+mod editor_pane;
+mod recorder;
 mod token;
 
 use std::collections::VecDeque;
@@ -17,6 +21,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::snapshot::Format;
 use crate::keymap::{self, Keymap};
+pub(crate) use recorder::{PaneStep, Recorder};
 use text::{Diagnostic, Span, alternatives, nearest_word};
 use token::{Token, Tokens};
 
@@ -44,6 +49,10 @@ pub(crate) enum Step {
     Wait,
     /// Awaits complete pictures and writes the screen to a file.
     Dump(PathBuf, Format),
+    /// Awaits complete pictures and adds the screen to an animation.
+    Record(PathBuf),
+    /// Does this in the editor's pane of animations.
+    Pane(PaneStep),
 }
 
 /// After this many errors no more is read: they tell the user nothing new, and a long script could have
@@ -155,12 +164,15 @@ enum Takes {
 }
 
 /// The commands, which are no keys, by their names.
-const COMMANDS: [(&str, Takes); 5] = [
+const COMMANDS: [(&str, Takes); 9] = [
     ("wait", Takes::Nothing(Step::Wait)),
     (
         "dump",
-        Takes::Argument("a file that ends in .txt, .ansi or .png", |file| {
+        Takes::Argument("a file that ends in .txt, .ansi, .png or .gif", |file| {
             let file = PathBuf::from(file);
+            if file.extension().is_some_and(|extension| extension == "gif") {
+                return Some(Step::Record(file));
+            }
             Format::of_path(&file).map(|format| Step::Dump(file, format))
         }),
     ),
@@ -183,6 +195,25 @@ const COMMANDS: [(&str, Takes); 5] = [
             parse_screen(size).map(|(columns, rows)| Step::Resize(columns, rows))
         }),
     ),
+    (
+        "editor-open",
+        Takes::Argument("a file", |file| {
+            Some(Step::Pane(PaneStep::Open(file.into())))
+        }),
+    ),
+    (
+        "editor-find",
+        Takes::Argument("a text of the file", |text| {
+            Some(Step::Pane(PaneStep::Find(text.to_owned())))
+        }),
+    ),
+    (
+        "editor-type",
+        Takes::Argument("a text in quotation marks", |text| {
+            Some(Step::Pane(PaneStep::Type(text.to_owned())))
+        }),
+    ),
+    ("editor-save", Takes::Nothing(Step::Pane(PaneStep::Save))),
 ];
 
 fn typed(character: char) -> Step {
@@ -270,7 +301,7 @@ mod tests {
             "wai", (1, 1) => "unknown key wai", "did you mean wait?";
             "resize 0x1", (1, 8) => "resize: 0x1 is not valid", "";
             "click", (1, 1) => "click: nothing follows", "";
-            "dump a.gif", (1, 6) => "dump: a.gif is not valid", "";
+            "dump a.jpg", (1, 6) => "dump: a.jpg is not valid", "";
             "j \"abc\nk", (1, 3) => "this text has no end", "";
         } {
             let errors = parse(text).expect_err(text);

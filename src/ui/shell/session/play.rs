@@ -2,6 +2,7 @@
 //! does not depend on time.
 
 use std::io;
+use std::mem;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -11,7 +12,7 @@ use super::{Session, Urgency};
 use crate::msg::{Effect, Msg, Timer};
 use crate::options::Rehearsal;
 use crate::shell::ending::Error;
-use crate::shell::script::{Script, Step};
+use crate::shell::script::{PaneStep, Script, Step};
 use crate::shell::snapshot;
 use assets::Assets;
 use language::Source;
@@ -27,7 +28,10 @@ impl Session {
             return self.take(event);
         }
         let next = self.script.as_ref().and_then(Script::peek);
-        let is_last = matches!(next, None | Some(Step::Wait | Step::Dump(..)));
+        let is_last = matches!(
+            next,
+            None | Some(Step::Wait | Step::Dump(..) | Step::Record(_))
+        );
         let pictures = &self.app.shared.pictures;
         let is_busy = if is_last {
             pictures.are_awaited()
@@ -75,6 +79,9 @@ impl Session {
                 errors: vec![unplayed],
             });
         }
+        let recorder = mem::take(&mut self.recorder);
+        let recorded = recorder.finish();
+        recorded.map_err(|(path, source)| Error::Frame { path, source })?;
         for path in rehearsal.iter().flat_map(|rehearsal| &rehearsal.frames) {
             let format = snapshot::Format::of_path(path).unwrap_or(snapshot::Format::Text);
             self.dump(path, format)?;
@@ -103,12 +110,48 @@ impl Session {
             }
             Step::Wait => {}
             Step::Dump(path, format) => {
-                if let Err(error) = self.dump(&path, format) {
-                    self.failed = Some(error);
-                    self.perform(vec![Effect::Quit]);
-                }
+                let dumped = self.dump(&path, format);
+                self.end_if_failed(dumped);
+            }
+            Step::Record(path) => {
+                let recorded = self.record(&path);
+                self.end_if_failed(recorded);
+            }
+            Step::Pane(step) => {
+                let edited = self.edit_beside(&step);
+                self.end_if_failed(edited);
             }
         }
+    }
+
+    fn end_if_failed(&mut self, step: Result<(), Error>) {
+        if let Err(error) = step {
+            self.failed = Some(error);
+            self.perform(vec![Effect::Quit]);
+        }
+    }
+
+    fn record(&mut self, path: &Path) -> Result<(), Error> {
+        if self.uses(path) {
+            return Err(used(path));
+        }
+        if let Some(cells) = self.runtime.screen().cells() {
+            self.recorder.add(path, cells, self.app.shared.theme);
+        }
+        Ok(())
+    }
+
+    /// Edits in the editor's pane. What it saves has changed on disk.
+    fn edit_beside(&mut self, step: &PaneStep) -> Result<(), Error> {
+        let edited = self.recorder.edit(step);
+        edited.map_err(|source| Error::Frame {
+            path: "the editor's pane".into(),
+            source,
+        })?;
+        if *step == PaneStep::Save {
+            self.step(Msg::FileChanged);
+        }
+        Ok(())
     }
 
     /// Whether a file is one that the scene uses. That of a text with errors is not known to the
@@ -133,18 +176,24 @@ impl Session {
 
     fn dump(&mut self, path: &Path, format: snapshot::Format) -> Result<(), Error> {
         let theme = self.app.shared.theme;
-        let is_used = self.uses(path);
+        if self.uses(path) {
+            return Err(used(path));
+        }
         let Some(cells) = self.runtime.screen().cells() else {
             return Ok(());
         };
-        let written = if is_used {
-            Err(io::Error::other("the scene uses it; name another file"))
-        } else {
-            snapshot::write(cells.clone(), path, format, (theme, self.depth))
-        };
+        let written = snapshot::write(cells.clone(), path, format, (theme, self.depth));
         written.map_err(|source| Error::Frame {
             path: path.to_owned(),
             source,
         })
+    }
+}
+
+/// The error that a screen would replace a file of the scene.
+fn used(path: &Path) -> Error {
+    Error::Frame {
+        path: path.to_owned(),
+        source: io::Error::other("the scene uses it; name another file"),
     }
 }

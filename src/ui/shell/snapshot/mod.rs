@@ -3,6 +3,8 @@
 mod font;
 mod picture;
 
+pub(super) use picture::drawn;
+
 use std::io;
 use std::path::Path;
 
@@ -51,7 +53,7 @@ pub(super) fn write(
         Format::Text => text(cells).into_bytes(),
         Format::Ansi => terminal::printed(cells),
         Format::Picture => {
-            let drawn = picture::drawn(cells, theme);
+            let drawn = drawn(cells, theme);
             return image_file::save(image_file::Picture::of(&drawn), path, &confirm).map(drop);
         }
     };

@@ -18,7 +18,7 @@ const DARK: [[u8; 3]; 2] = [[204, 204, 204], [16, 16, 20]];
 const LIGHT: [[u8; 3]; 2] = [[36, 36, 40], [255, 255, 255]];
 
 /// Draws a screen on a terminal for a theme.
-pub(super) fn drawn(cells: &Buffer, theme: Theme) -> Frame {
+pub(in crate::shell) fn drawn(cells: &Buffer, theme: Theme) -> Frame {
     let plain = match theme {
         Theme::Dark | Theme::Mono => DARK,
         Theme::Light => LIGHT,
