@@ -86,12 +86,10 @@ impl Tint {
         SHADES[usize::from(self.shade)].0
     }
 
-    pub(super) fn paper(self) -> Color {
-        Color::Indexed(self.paper)
-    }
-
     pub(super) fn style(self) -> Style {
-        Style::reset().fg(Color::Indexed(self.ink)).bg(self.paper())
+        Style::reset()
+            .fg(Color::Indexed(self.ink))
+            .bg(Color::Indexed(self.paper))
     }
 }
 

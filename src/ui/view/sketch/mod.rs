@@ -17,7 +17,7 @@ use super::few_colours::Palette;
 use super::inks::Inks;
 use crate::app::{CellImage, Grid};
 use crate::theme;
-use cell::Cell;
+use cell::{Areas, Cell};
 use edge::Line;
 use range::Range;
 
@@ -70,13 +70,24 @@ pub(super) fn finer(shown: &CellImage) -> CellImage {
     finer
 }
 
-/// The character of a cell without colours.
+/// The character of a cell without colours: both of its areas where one is nearly black and the
+/// other nearly white, otherwise a line where an edge is, or a shade.
 fn shade(cell: &Cell, line: Option<Line>, range: Range) -> &'static str {
+    const ENDS: [f32; 2] = [0.3, 0.7];
+    if let Some(Areas { colours, quarters }) = cell.areas {
+        let [first, second] = colours.map(|colour| range.share(colour));
+        if first < ENDS[0] && ENDS[1] < second {
+            return QUARTERS[QUARTERS.len() - 1 - quarters];
+        }
+        if second < ENDS[0] && ENDS[1] < first {
+            return QUARTERS[quarters];
+        }
+    }
     if let Some(line) = line {
         return line.symbol();
     }
     let steps = SHADES.len();
-    let step = range.share(cell.colours.0) * steps as f32;
+    let step = range.share(cell.colour) * steps as f32;
     SHADES[(step as usize).min(steps - 1)]
 }
 
@@ -86,40 +97,43 @@ fn marked(cell: &Cell) -> Style {
     Style::reset().add_modifier(mark.unwrap_or_default())
 }
 
-/// The character of a cell in few colours: a shade, or where an edge is, both sides if their colours
-/// differ, otherwise a line.
+/// The character of a cell in few colours: both of its areas if their colours differ, otherwise a
+/// line where an edge is, or a shade.
 fn coloured(
     cell: &Cell,
     line: Option<Line>,
     range: Range,
     palette: &mut Palette,
 ) -> (&'static str, Style) {
-    let (near, rest) = cell.colours;
-    let near = range.stretched(near);
-    let Some(line) = line else {
-        let tint = palette.tint(near);
-        let style = if cell.is_outlined {
-            Style::reset().fg(theme::OUTLINE.into()).bg(tint.paper())
-        } else {
-            tint.style()
-        };
-        return (tint.symbol(), style);
-    };
-    let paper = palette.nearest(near);
     let style = |ink: u8, paper: u8| {
-        Style::reset()
-            .fg(Palette::colour(ink))
-            .bg(Palette::colour(paper))
+        let [ink, paper] = [ink, paper].map(Palette::colour);
+        Style::reset().fg(ink).bg(paper)
     };
-    if cell.is_outlined {
-        let style = style(paper, paper).fg(theme::OUTLINE.into());
-        return (line.symbol(), style.add_modifier(Modifier::BOLD));
+    let colour = range.stretched(cell.colour);
+    let areas = cell.areas.filter(|_| !cell.is_outlined);
+    if let Some(Areas { colours, quarters }) = areas {
+        let [first, second] = colours.map(|colour| palette.nearest(range.stretched(colour)));
+        if first != second {
+            return (QUARTERS[quarters], style(first, second));
+        }
     }
-    let beyond = rest.map(|rest| palette.nearest(range.stretched(rest)));
-    match beyond.filter(|&beyond| beyond != paper) {
-        Some(beyond) => (QUARTERS[cell.quarters], style(paper, beyond)),
-        None => (line.symbol(), style(palette.contrast(paper), paper)),
-    }
+    let outline = Style::new().fg(theme::OUTLINE.into());
+    let Some(line) = line else {
+        let tint = palette.tint(colour);
+        let outline = cell.is_outlined.then_some(outline);
+        return (
+            tint.symbol(),
+            tint.style().patch(outline.unwrap_or_default()),
+        );
+    };
+    let paper = palette.nearest(colour);
+    let style = if cell.is_outlined {
+        let bold = outline.add_modifier(Modifier::BOLD);
+        style(paper, paper).patch(bold)
+    } else {
+        style(palette.contrast(paper), paper)
+    };
+    (line.symbol(), style)
 }
 
 #[cfg(test)]

@@ -87,3 +87,18 @@ fn any_size_is_drawn() {
         }
     }
 }
+
+#[test]
+fn areas_of_one_object_that_differ_much_are_quarters() {
+    for depth in [ColourDepth::Mono, ColourDepth::Palette16] {
+        for (is_bright, symbol) in [
+            ((|x, _| x == 1) as fn(u32, u32) -> bool, "▐"),
+            (|_, y| y < 2, "▀"),
+            (|x, y| x == 0 && 2 <= y, "▖"),
+        ] {
+            let grey = |x, y| if is_bright(x, y) { 255 } else { 0 };
+            let buffer = drawn(depth, (2, 4), |x, y| (grey(x, y), 0));
+            assert_eq!(rows(&buffer), [symbol], "{depth:?}");
+        }
+    }
+}
