@@ -137,6 +137,15 @@ impl History {
         });
     }
 
+    /// The text that the open run had at first where it now has this span.
+    pub(super) fn at_first(&self, span: Span) -> Option<&str> {
+        let step = self.undo.last().filter(|_| self.open)?;
+        match step.edits.as_slice() {
+            [edit] if edit.span == span => Some(&edit.text),
+            _ => None,
+        }
+    }
+
     /// Records a separate step.
     pub(super) fn record(&mut self, inverse: Vec<Edit>) {
         self.push(inverse.clone(), StepName::default());

@@ -15,7 +15,7 @@ use similar::DiffOp;
 use similar::algorithms::{Capture, Compact, Replace, myers};
 
 use super::changes::Change;
-use language::{Language, Role, Roles, Source};
+use language::{Language, Role, Roles, Source, parts_of_comment};
 use text::Span;
 
 /// Time limit of the search for a short diff; what remains then counts as one hunk. In tests, a
@@ -55,8 +55,7 @@ impl<'t> Chunks<'t> {
     /// ends, where the whole text does.
     pub(super) fn of(language: Language, text: &'t str, at_ends: [bool; 2]) -> Self {
         let source = Source::new(language, Arc::new(text.to_owned()));
-        let leaves = source.leaves();
-        let Roles { roles, unknown } = source.roles(&leaves, at_ends);
+        let (leaves, roles, unknown) = leaves_of(&source, at_ends);
         let mut keys = String::with_capacity(text.len() + ROLE * leaves.len());
         let mut at = 0;
         for (leaf, role) in leaves.iter().zip(roles) {
@@ -135,6 +134,40 @@ impl Index<usize> for Chunks<'_> {
         let start = self.bound(chunk) + ROLE * (chunk / 2);
         &self.keys[start..self.bound(chunk + 1) + ROLE * chunk.div_ceil(2)]
     }
+}
+
+/// The leaves of a text with their roles, and the number of those at the beginning whose roles are not
+/// known. A comment that states render settings is a leaf for each of them.
+fn leaves_of(source: &Source, at_ends: [bool; 2]) -> (Vec<Span>, Vec<Role>, usize) {
+    let whole = source.leaves();
+    let Roles { roles, unknown } = source.roles(&whole, at_ends);
+    let (mut leaves, mut of_leaves) = (
+        Vec::with_capacity(whole.len()),
+        Vec::with_capacity(whole.len()),
+    );
+    let mut before = unknown;
+    for (at, (&leaf, role)) in whole.iter().zip(roles).enumerate() {
+        let parts = if source.is_comment(leaf) {
+            parts_of_comment(source.text(), leaf)
+        } else {
+            Vec::new()
+        };
+        if at == unknown {
+            before = leaves.len();
+        }
+        if parts.is_empty() {
+            leaves.push(leaf);
+            of_leaves.push(role);
+        }
+        for (part, role) in parts {
+            leaves.push(part);
+            of_leaves.push(role);
+        }
+    }
+    if whole.len() <= unknown {
+        before = leaves.len();
+    }
+    (leaves, of_leaves, before)
 }
 
 /// A range of base chunks replaced by other chunks.

@@ -166,6 +166,11 @@ impl Document {
         }
     }
 
+    /// The text that a span had before the run of [`Document::set`] calls that wrote it, if that can go on.
+    pub fn at_first(&self, span: Span) -> Option<&str> {
+        self.history.at_first(span)
+    }
+
     /// Ends a run of merged [`Document::set`] calls; the next call begins a new step.
     pub fn end_step(&mut self) {
         self.history.close();

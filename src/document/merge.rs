@@ -8,11 +8,11 @@ use std::sync::Arc;
 
 use super::Document;
 use super::changes::{Change, LIMITS, changes};
-use super::pieces::{Conflict, Piece, Place, Side, edits, pieces};
+use super::pieces::{Conflict, Piece, Place, Side, edits, joined, pieces};
 use super::sides::{Sides, divide_a_move};
 use super::windows::{self, Window, widening, windows};
 use language::{Language, Source};
-use text::Edit;
+use text::{Edit, Span};
 
 /// A three-way merge: changes that apply cleanly, and conflicts.
 #[derive(Clone, Debug)]
@@ -61,6 +61,7 @@ impl Merge {
             theirs: window.theirs.of(theirs).to_owned(),
             decision: None,
             ancestor: window.base,
+            outside: window.theirs,
         };
         let conflicts: Vec<_> = window.map(conflict).into_iter().collect();
         Self {
@@ -71,6 +72,14 @@ impl Merge {
             mine: Arc::clone(mine),
             theirs: Arc::clone(theirs),
         }
+    }
+
+    /// Makes one conflict of those in the same field, whose span in the text being edited `field` gives:
+    /// the channels of a colour are one decision.
+    pub fn join(&mut self, field: impl Fn(Span) -> Option<Span>) {
+        let texts = [&**self.base, &**self.mine, &**self.theirs];
+        let (pieces, conflicts) = joined(texts, &self.pieces, &self.conflicts, field);
+        (self.pieces, self.conflicts) = (pieces, conflicts);
     }
 
     /// Whether the text being edited is still the one merged.

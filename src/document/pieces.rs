@@ -27,6 +27,8 @@ pub struct Conflict {
     pub decision: Option<Side>,
     /// The span in the common ancestor, which identifies the conflict after further edits.
     pub(super) ancestor: Span,
+    /// The span in the text from outside.
+    pub(super) outside: Span,
 }
 
 /// Corresponding spans of three texts, which differ there.
@@ -66,6 +68,22 @@ impl Conflict {
         match side {
             Side::Mine => &self.mine,
             Side::Theirs => &self.theirs,
+        }
+    }
+
+    /// The undecided conflict from this one to a later one, of the ancestor, mine and theirs.
+    fn to(&self, later: &Self, [base, mine, theirs]: [&str; 3]) -> Self {
+        let ancestor = self.ancestor.to(later.ancestor);
+        let span = self.span.to(later.span);
+        let outside = self.outside.to(later.outside);
+        Self {
+            span,
+            base: ancestor.of(base).to_owned(),
+            mine: span.of(mine).to_owned(),
+            theirs: outside.of(theirs).to_owned(),
+            decision: None,
+            ancestor,
+            outside,
         }
     }
 }
@@ -110,9 +128,42 @@ pub(super) fn pieces(
             theirs: theirs.to_owned(),
             decision: None,
             ancestor,
+            outside: place.theirs,
         });
     }
     (pieces, conflicts)
+}
+
+/// Joins conflicts in the same span of the text being edited, as `of` gives it, with what is between them.
+pub(super) fn joined(
+    texts: [&str; 3],
+    pieces: &[Piece],
+    conflicts: &[Conflict],
+    of: impl Fn(Span) -> Option<Span>,
+) -> (Vec<Piece>, Vec<Conflict>) {
+    let (mut new_pieces, mut new): (Vec<Piece>, Vec<Conflict>) = (Vec::new(), Vec::new());
+    // Where the pieces behind the last conflict begin, and the span that it is in.
+    let mut last: Option<(usize, Span)> = None;
+    for piece in pieces {
+        let Piece::Conflict(index) = piece else {
+            new_pieces.push(piece.clone());
+            continue;
+        };
+        let next = &conflicts[*index];
+        let own = of(next.span);
+        if let (Some((behind, span)), Some(own)) = (last, own)
+            && span == own
+            && let Some(joined) = new.last_mut()
+        {
+            new_pieces.truncate(behind);
+            *joined = joined.to(next, texts);
+            continue;
+        }
+        new_pieces.push(Piece::Conflict(new.len()));
+        new.push(next.clone());
+        last = own.map(|own| (new_pieces.len(), own));
+    }
+    (new_pieces, new)
 }
 
 /// The edits of the pieces, with each conflict decided by `decide`.

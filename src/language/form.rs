@@ -3,6 +3,8 @@
 
 use glam::{DMat3, DVec3};
 
+use super::digits;
+use super::record::UNIT_TOLERANCE;
 use geometry::normalise;
 use scene::Camera;
 
@@ -118,7 +120,7 @@ impl Motion {
     /// where they change.
     #[must_use]
     pub fn camera(&self, camera: &Camera, decimals: usize) -> Camera {
-        let place = |old: DVec3, new: DVec3, decimals| {
+        let place = |old: DVec3, new: DVec3| {
             let component = |at: usize| rounded(old[at], new[at], decimals);
             DVec3::from_array([0, 1, 2].map(component))
         };
@@ -126,9 +128,9 @@ impl Motion {
             eye, target, up, ..
         } = *camera;
         Camera {
-            eye: place(eye, self.point(eye), decimals),
-            target: place(target, self.point(target), decimals),
-            up: place(up, self.direction(up), 17),
+            eye: place(eye, self.point(eye)),
+            target: place(target, self.point(target)),
+            up: digits::turned(up, self),
             ..*camera
         }
     }
@@ -183,13 +185,13 @@ impl Motion {
     }
 }
 
-/// Makes turned directions orthonormal again if they were so before, so that many turns add up to
-/// no skew.
+/// Makes turned directions orthonormal again if they were so before but for digits that were left out, so
+/// that many turns add up to no skew.
 fn straightened(turned: [DVec3; 3], before: [DVec3; 3]) -> [DVec3; 3] {
     let [a, b, c] = before;
     let is_straight = [a.dot(b), a.dot(c), b.dot(c)]
         .iter()
-        .all(|dot| dot.abs() < 1e-6);
+        .all(|dot| dot.abs() <= UNIT_TOLERANCE);
     if is_straight {
         orthonormal(turned).unwrap_or(turned)
     } else {
@@ -242,10 +244,6 @@ pub(super) fn rotation(axis: DVec3, angle: f64) -> DMat3 {
     let turned = |v: DVec3| cos * v + sin * axis.cross(v) + (1.0 - cos) * axis.dot(v) * axis;
     DMat3::from_cols(turned(DVec3::X), turned(DVec3::Y), turned(DVec3::Z))
 }
-
-/// Decimals of directions and angles: so many that thousands of turns add up to no visible drift, but
-/// fewer than show the rounding errors of binary fractions (0.5 after 60°, not 0.5000000000000001).
-pub(super) const PRECISE: usize = 15;
 
 /// The number that a moved one is written as: the old one if they differ by rounding errors only,
 /// with the digits of the old one after a step of no more than this number of decimals, otherwise

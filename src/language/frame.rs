@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::StructureError;
-use super::form::{orthonormal, rounded};
+use super::digits;
+use super::form::orthonormal;
 use super::schema::position::At;
 use geometry::FrameNumbers;
 
@@ -12,7 +13,8 @@ pub(super) fn frameless(name: &str) -> StructureError {
     StructureError::Inexpressible(format!("{name} has no frame to orthonormalise"))
 }
 
-/// The new numbers of the directions at these places, without rounding errors of the old.
+/// The new numbers of the directions at these places; the old ones if they are orthogonal but for digits
+/// that are left out.
 ///
 /// # Errors
 ///
@@ -26,15 +28,24 @@ pub(super) fn straight(
     let refused = || StructureError::Inexpressible("two of its directions are parallel".to_owned());
     let frame = orthonormal(directions).ok_or_else(refused)?;
     let mut new = old.to_vec();
-    for ((at, direction), before) in places.iter().zip(frame).zip(directions) {
+    let placed = directions.iter().zip(frame).map(|(&before, direction)| {
         let length = match lengths {
             Lengths::Unit => 1.0,
             Lengths::Kept => before.length(),
         };
-        at.put(&mut new, (length * direction).to_array());
+        (before, length * direction)
+    });
+    let placed: Vec<_> = placed.collect();
+    if !placed
+        .iter()
+        .all(|&(before, wanted)| digits::is_straight(before, wanted))
+    {
+        for (at, &(before, wanted)) in places.iter().zip(&placed) {
+            let written = digits::straightened(before, wanted, lengths);
+            at.put(&mut new, written.to_array());
+        }
     }
-    let kept = old.iter().zip(&new);
-    Ok(kept.map(|(old, new)| rounded(*old, *new, 15)).collect())
+    Ok(new)
 }
 
 /// The lengths of directions that become orthogonal.

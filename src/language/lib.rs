@@ -11,6 +11,7 @@ pub mod coefficients;
 mod convert;
 mod cse167;
 mod dat;
+mod digits;
 mod engine;
 mod field_spans;
 mod form;
@@ -64,7 +65,7 @@ pub use listed::Visibility;
 pub use memory_estimate::fits;
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use picture_lint::{Outlook, Prospect, outlook};
-pub use rendering::settings;
+pub use rendering::{parts_of_comment, settings};
 pub use roles::{Role, Roles};
 pub use saved::{SavedView, view_name};
 pub use structure::{

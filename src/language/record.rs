@@ -8,7 +8,7 @@ use geometry::{FLATTEST, normalise};
 use text::{Diagnostic, Findings, Span, concise};
 
 /// The tolerance for a direction's length around 1 and for dot products of two around 0.
-const UNIT_TOLERANCE: f64 = 1e-3;
+pub(super) const UNIT_TOLERANCE: f64 = 1e-3;
 
 /// The numbers of one node, as far as the text gives them.
 #[derive(Clone, Copy, Debug)]

@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use super::field_spans::{Component, FieldSpans, Insertion, Piece, Wanted};
 use super::report::{number_in_comment, quoted};
+use super::roles::{ANYWHERE, Role, role};
 use super::schema::{Field, Kind, Named, Range};
 use super::view::{beginning, line_ending, whole_lines};
 use super::words::Words;
@@ -241,6 +242,34 @@ fn misspelt(text: &str, first: Span, second: Option<Span>) -> Option<Diagnostic>
     let right = format!("{meant} {value}");
     let warning = warning.with_hint(format!("did you mean `{meant} VALUE`?"));
     Some(warning.with_fix(first, right.trim_end()))
+}
+
+/// The parts of a comment that states settings, each with its role in a merge: what is before the first
+/// key, each key with its value, and the mark that ends the comment. Empty for any other comment.
+pub fn parts_of_comment(text: &str, comment: Span) -> Vec<(Span, Role)> {
+    const NAME: &str = "render:";
+    const SETTING: u8 = b'R';
+    let of = comment.of(text);
+    let Some(at) = of.find(NAME) else {
+        return Vec::new();
+    };
+    let start = comment.start() + at + NAME.len();
+    let end = comment.start() + of.strip_suffix("-->").unwrap_or(of).len();
+    if end < start {
+        return Vec::new();
+    }
+    let mut parts = vec![(Span::new(comment.start(), start), ANYWHERE)];
+    for word in Words::new(text, Span::new(start, end)) {
+        match (index_of(word.of(text)), parts.len()) {
+            (Some(key), _) => parts.push((word, role(SETTING, key))),
+            (None, 1) => return Vec::new(),
+            (None, last) => parts[last - 1].0 = parts[last - 1].0.to(word),
+        }
+    }
+    if end < comment.end() {
+        parts.push((Span::new(end, comment.end()), ANYWHERE));
+    }
+    parts
 }
 
 fn keys() -> impl Iterator<Item = &'static str> {

@@ -1,6 +1,7 @@
 //! Spans, edits, numbers and diagnostics of text. Knows no language.
 
 mod codes;
+mod comment_columns;
 mod counted;
 mod diagnostic;
 mod duration;
@@ -17,6 +18,7 @@ mod span;
 mod visible;
 
 pub use codes::without_codes;
+pub use comment_columns::keep_columns;
 pub use counted::{alternatives, counted};
 pub use diagnostic::{Cited, Diagnostic, SKIPPED, Severity, Shown};
 pub use duration::parse_duration;

@@ -56,6 +56,63 @@ fn values_merge_leaf_by_leaf() {
 }
 
 #[test]
+fn render_settings_in_one_comment_are_merged_one_by_one() {
+    check(&[
+        (
+            "// render: spp 4 depth 8\n1",
+            "// render: spp 16 depth 8\n1",
+            "// render: spp 4 depth 2\n1",
+            "// render: spp 16 depth 2\n1",
+        ),
+        (
+            "// render: spp 4 depth 8",
+            "// render: spp 16 depth 8",
+            "// render: spp 9 depth 8",
+            "// render: {spp 4|spp 16|spp 9} depth 8",
+        ),
+        // Any other comment is one thing.
+        (
+            "// renders: spp 4 depth 8",
+            "// renders: spp 16 depth 8",
+            "// renders: spp 4 depth 2",
+            "{// renders: spp 4 depth 8|// renders: spp 16 depth 8|// renders: spp 4 depth 2}",
+        ),
+    ]);
+}
+
+#[test]
+fn conflicts_in_one_field_are_one() {
+    let join = |base: &str, mine: &str, theirs: &str, field: std::ops::Range<usize>| {
+        let mut merge = merge(base, mine, theirs);
+        let field = Span::new(field.start, field.end);
+        merge.join(|span| {
+            (field.start() <= span.start() && span.end() <= field.end()).then_some(field)
+        });
+        marked(&merge)
+    };
+    for (base, mine, theirs, field, expected) in [
+        (
+            "1 2 3 4",
+            "5 6 7 8",
+            "9 8 6 0",
+            0..5,
+            "{1 2 3|5 6 7|9 8 6} {4|8|0}",
+        ),
+        // What only one side changed between them belongs to it.
+        (
+            "1 2 3 4",
+            "5 2 7 4",
+            "9 8 6 4",
+            0..5,
+            "{1 2 3|5 2 7|9 8 6} 4",
+        ),
+        ("1 2 3 4", "5 2 3 8", "9 2 3 0", 0..5, "{1|5|9} 2 3 {4|8|0}"),
+    ] {
+        assert_eq!(join(base, mine, theirs, field), expected, "{mine} {theirs}");
+    }
+}
+
+#[test]
 fn white_space_merges_with_values() {
     check(&[
         ("1 2 3", "1 5 3", "1\t2  3\n", "1\t5  3\n"),

@@ -9,11 +9,13 @@ use glam::{DAffine3, DVec3};
 use super::Source;
 use super::lower::Placed;
 use super::schema::{POP, PUSH, ROTATE, SCALE, SCHEMA, SPHERE, TRANSLATE, TRI, TRI_NORMAL};
+use crate::digits;
 use crate::engine::identities::kind;
 use crate::engine::motion::Moves;
 use crate::engine::places::{Place, fields};
 use crate::field_spans::FieldSpans;
-use crate::form::{Along, Form, PRECISE, rounded};
+use crate::form::{Along, Form, rounded};
+use crate::frame::Lengths;
 use crate::schema::{Makes, Part, Record, Schema};
 use crate::spelling::rounded_off;
 use crate::structure::{Pose, number, replacements};
@@ -23,6 +25,11 @@ use text::{Edit, Span, line_end};
 
 /// The largest relative difference that counts as rounding.
 const ROUNDING: f64 = 1e-9;
+/// Decimals of numbers that are sums of shorter ones: fewer than show the rounding errors of binary
+/// fractions.
+const MOST: usize = 15;
+/// The least decimals of a factor.
+const FACTOR_DECIMALS: usize = 4;
 
 impl Moves for Source {
     fn schema(&self) -> &'static Schema {
@@ -84,7 +91,7 @@ impl Moves for Source {
                 if *place.record == SPHERE && is_even {
                     return Ok(self.moved_by_numbers(node, &placed.transform, motion, decimals));
                 }
-                self.wrapped([place.at, place.end], &placed, motion)
+                self.wrapped([place.at, place.end], &placed, motion, decimals)
             }
             _ => Err(fixed()),
         }
@@ -147,10 +154,7 @@ impl Source {
         decimals: usize,
     ) -> Vec<Edit> {
         let back = transform.inverse();
-        // Steps are rounded in the world: a large scale needs more decimals.
-        let size = transform.matrix3.determinant().abs().max(f64::MIN_POSITIVE);
-        let finer = (libm::log10(size) / 3.0).ceil().clamp(0.0, PRECISE as f64);
-        let decimals = decimals + finer as usize;
+        let decimals = decimals + finer(transform);
         let mut edits = Vec::new();
         for placed in self.fields(node) {
             let new = match (placed.field.part, self.vector(&placed), motion) {
@@ -164,13 +168,15 @@ impl Source {
                 (Part::Direction, Some(old), Motion::Rotate { .. }) => {
                     let moved = motion.direction(transform.transform_vector3(old));
                     let new = back.transform_vector3(moved);
-                    [0, 1, 2]
-                        .map(|at| rounded(old[at], new[at], PRECISE))
+                    let within = digits::tolerance(motion);
+                    digits::direction(old, new, Lengths::Unit, within)
+                        .to_array()
                         .to_vec()
                 }
                 (_, _, Motion::Scale { factor, .. }) if placed.field.key == "radius" => {
                     let old = number(&self.text, placed.spans[0]);
-                    vec![rounded(old, factor * old, decimals)]
+                    let new = factor * old;
+                    vec![rounded(old, new, digits::of_length(new, decimals))]
                 }
                 _ => continue,
             };
@@ -186,6 +192,7 @@ impl Source {
         [first, last]: [usize; 2],
         placed: &Placed,
         motion: &Motion,
+        decimals: usize,
     ) -> Result<Vec<Edit>, StructureError> {
         let (text, own) = (&*self.text, &self.origins.own);
         let end = line_ending(text);
@@ -210,7 +217,12 @@ impl Source {
         let frame = push
             .filter(|_| !is_own)
             .and_then(|push| own.pushed.get(&push));
-        let new = transforms(frame.unwrap_or(&placed.transform), placed.centre, motion)?;
+        let frame = frame.unwrap_or(&placed.transform);
+        let decimals = decimals + finer(frame);
+        let mut new = transforms(frame, placed.centre, motion)?;
+        for one in &mut new {
+            one.shorten(digits::tolerance(motion), decimals);
+        }
         let lines = |indent: &str, before: &str, behind: &str| -> String {
             let lines = new.iter().map(Transform::to_string);
             lines
@@ -230,7 +242,8 @@ impl Source {
         } else {
             0
         };
-        if let Some(edits) = self.joined(begin.max(push + 1)..first, &new, is_own) {
+        let known = begin.max(push + 1)..first;
+        if let Some(edits) = self.joined(known, &new, (is_own, decimals)) {
             return Ok(edits);
         }
         Ok(vec![if is_own {
@@ -244,12 +257,18 @@ impl Source {
     }
 
     /// The edits that join transforms with the same kind of transforms among these commands, at their
-    /// beginning or, if they come `last`, at their end: about one point, two are one.
-    fn joined(&self, commands: Range<usize>, new: &[Transform], last: bool) -> Option<Vec<Edit>> {
+    /// beginning or, if they come `last`, at their end: about one point, two are one. Points are one if
+    /// they are so when rounded to this number of decimals.
+    fn joined(
+        &self,
+        commands: Range<usize>,
+        new: &[Transform],
+        (last, decimals): (bool, usize),
+    ) -> Option<Vec<Edit>> {
         let known = commands.take(new.len()).map(|at| self.transform(at));
         let known: Vec<_> = known.collect::<Option<_>>()?;
         let point = if last { new.len() - 1 } else { 0 };
-        let is_about = |known: &(Transform, Vec<Span>)| known.0.is_like(&new[point]);
+        let is_about = |known: &(Transform, Vec<Span>)| known.0.is_like(&new[point], decimals);
         if new.len() != 1 && !known.get(point).is_some_and(is_about) {
             return None;
         }
@@ -284,6 +303,14 @@ impl Source {
     }
 }
 
+/// How many more decimals a number needs in a space with this transform, for steps are rounded in the
+/// world.
+fn finer(transform: &DAffine3) -> usize {
+    let size = transform.matrix3.determinant().abs().max(f64::MIN_POSITIVE);
+    let finer = (libm::log10(size) / 3.0).ceil();
+    finer.clamp(0.0, MOST as f64) as usize
+}
+
 /// Whether a transform is a similarity: a rotation with a uniform scale.
 pub(super) fn is_similar(transform: &DAffine3) -> bool {
     let columns = [transform.x_axis, transform.y_axis, transform.z_axis];
@@ -308,11 +335,7 @@ impl Display for Transform {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_str(self.record.name)?;
         for &number in &self.numbers {
-            write!(
-                f,
-                " {}",
-                spelled(rounded_off(rounded(0.0, number, PRECISE)))
-            )?;
+            write!(f, " {}", spelled(rounded_off(rounded(0.0, number, MOST))))?;
         }
         Ok(())
     }
@@ -326,11 +349,31 @@ impl Transform {
         }
     }
 
-    /// Whether it is the same but for rounding.
-    fn is_like(&self, other: &Self) -> bool {
+    /// Whether it is the same but for rounding to this number of decimals.
+    fn is_like(&self, other: &Self, decimals: usize) -> bool {
         let mut pairs = self.numbers.iter().zip(&other.numbers);
+        let unit = libm::exp10(-(decimals as f64));
         self.record == other.record
-            && pairs.all(|(one, other)| (one - other).abs() <= ROUNDING * one.abs().max(1.0))
+            && pairs.all(|(one, other)| (one - other).abs() <= unit + ROUNDING * one.abs().max(1.0))
+    }
+
+    /// Leaves out digits of its numbers: those of a rotation beyond this angle in radians, of distances
+    /// beyond these decimals, and of factors that nobody sees.
+    fn shorten(&mut self, within: f64, decimals: usize) {
+        if let [x, y, z, angle] = self.numbers[..] {
+            let (axis, angle) = digits::turn(DVec3::new(x, y, z), angle, within);
+            self.numbers = [&axis.to_array()[..], &[angle]].concat();
+            return;
+        }
+        let is_scale = *self.record == SCALE;
+        for number in &mut self.numbers {
+            let decimals = if is_scale {
+                digits::of_length(*number, FACTOR_DECIMALS)
+            } else {
+                decimals
+            };
+            *number = rounded(0.0, *number, decimals);
+        }
     }
 
     /// The numbers of the one transform that does what `first` and then this one do; `None` if they are
@@ -342,24 +385,21 @@ impl Transform {
         }
         let join = |old: f64, new: f64| {
             if *self.record == SCALE {
-                old * new
+                let product = old * new;
+                rounded(old, product, digits::of_length(product, FACTOR_DECIMALS))
             } else {
-                old + new
+                rounded(old, old + new, MOST)
             }
         };
         if *self.record != ROTATE {
-            return Some(
-                pairs
-                    .map(|(&old, &new)| rounded(old, join(old, new), PRECISE))
-                    .collect(),
-            );
+            return Some(pairs.map(|(&old, &new)| join(old, new)).collect());
         }
         let axis = |of: &Self| DVec3::from_slice(&of.numbers).normalize_or_zero();
         if !axis(self).abs_diff_eq(axis(first), ROUNDING) {
             return None;
         }
         let mut numbers = first.numbers.clone();
-        numbers[3] = rounded(numbers[3], (numbers[3] + self.numbers[3]) % 360.0, PRECISE);
+        numbers[3] = rounded(numbers[3], (numbers[3] + self.numbers[3]) % 360.0, MOST);
         Some(numbers)
     }
 }

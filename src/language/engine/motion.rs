@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
+use crate::digits;
 use crate::field_spans::FieldSpans;
-use crate::form::{Form, PRECISE, rounded};
+use crate::form::{Form, rounded};
 use crate::frame::{Lengths, frameless, straight};
 use crate::node::Node;
 use crate::schema::layout::Unfit;
@@ -184,12 +185,14 @@ pub(crate) trait Moves {
                 let fields = self.fields(node);
                 let edits = fields.iter().filter_map(|placed| {
                     let old = self.vector(placed)?;
-                    let (new, decimals) = match self.part_of_light(&fields, placed.field) {
-                        Part::Point(_) => (motion.point(old), decimals),
-                        Part::Direction => (motion.direction(old), PRECISE),
+                    let new = match self.part_of_light(&fields, placed.field) {
+                        Part::Point(_) => {
+                            let new = motion.point(old);
+                            [0, 1, 2].map(|at| rounded(old[at], new[at], decimals))
+                        }
+                        Part::Direction => digits::turned(old, motion).to_array(),
                         Part::None | Part::Axis(_) | Part::Length(..) => return None,
                     };
-                    let new = [0, 1, 2].map(|at| rounded(old[at], new[at], decimals));
                     Some(replacements(self.text(), &placed.spans, &new))
                 });
                 Ok(edits.flatten().collect())
@@ -248,10 +251,14 @@ pub(crate) trait Moves {
         let fields = fields.flat_map(|field| std::iter::repeat_n(field, field.kind.components()));
         for ((new, old), field) in new.iter_mut().zip(old).zip(fields) {
             *new = match field.part {
-                Part::Axis(_) if turns => rounded(*old, *new, PRECISE),
+                Part::Axis(_) if turns => *new,
                 Part::Axis(_) => *old,
+                Part::Length(..) => rounded(*old, *new, digits::of_length(*new, decimals)),
                 _ => rounded(*old, *new, decimals),
             };
+        }
+        if turns && let Some(layout) = &record.layout {
+            layout.shorten_axes(old, &mut new, digits::tolerance(motion));
         }
         Ok(replacements(self.text(), spans, &new))
     }

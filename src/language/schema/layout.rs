@@ -5,7 +5,9 @@ use glam::DVec3;
 
 use super::position::At;
 use super::{Field, Kind, Part, Slot};
+use crate::digits;
 use crate::form::{Form, rotated};
+use crate::frame::Lengths;
 use geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Solid, Sphere, normalise};
 
 /// The unit solids.
@@ -222,6 +224,21 @@ impl Layout {
             self.lengths[axis].put(numbers, [self.halves[axis] * half / unit]);
         }
         Ok(())
+    }
+
+    /// Leaves out digits of directions that differ from the old ones, as far as they point within this
+    /// angle of where they do.
+    pub(crate) fn shorten_axes(&self, old: &[f64], new: &mut [f64], within: f64) {
+        let lengths = if self.is_relative {
+            Lengths::Kept
+        } else {
+            Lengths::Unit
+        };
+        for at in self.axes.iter().flatten() {
+            let [before, meant] = [at.vector(old), at.vector(new)];
+            let written = digits::direction(before, meant, lengths, within);
+            at.put(new, written.to_array());
+        }
     }
 
     /// The form of this solid that comes nearest to another.

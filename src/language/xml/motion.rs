@@ -7,8 +7,10 @@ use super::Source;
 use super::origins::fields::numbers;
 use super::origins::{Role, insert};
 use super::parameter::Parameter;
+use crate::digits;
 use crate::field_spans::FieldSpans;
-use crate::form::{Along, Motion, PRECISE, rotation, rounded};
+use crate::form::{Along, Motion, rotation, rounded};
+use crate::frame::Lengths;
 use crate::structure::{Pose, number};
 use crate::view::spelled;
 use crate::{Node, SceneText, StructureError};
@@ -89,20 +91,26 @@ impl Source {
     fn moved_light(&self, node: Node, motion: &Motion, decimals: usize) -> Vec<Edit> {
         let fields = self.fields(node).into_iter();
         let edits = fields.filter_map(|placed| {
-            let (moved, decimals): (fn(&Motion, DVec3) -> DVec3, _) = match placed.field.key {
-                "position" => (Motion::point, decimals),
-                "direction" => (Motion::direction, PRECISE),
-                _ => return None,
-            };
-            let (old, factor) = self.vector(&placed);
-            let new = moved(motion, old);
+            let key = placed.field.key;
+            if !matches!(key, "position" | "direction") {
+                return None;
+            }
+            let (vector, factor) = self.vector(&placed);
             let old = self.numbers(&placed);
-            let new = with_factor(new, factor);
-            let new = old
-                .iter()
-                .zip(new)
-                .map(|(old, new)| rounded(*old, new, decimals));
-            let new: Vec<_> = new.collect();
+            let new = if key == "position" {
+                let moved = with_factor(motion.point(vector), factor);
+                let pairs = old.iter().zip(moved);
+                pairs
+                    .map(|(old, new)| rounded(*old, new, decimals))
+                    .collect()
+            } else {
+                let mut moved = with_factor(motion.direction(vector), factor);
+                let [before, wanted] = [&old[..], &moved].map(DVec3::from_slice);
+                let within = digits::tolerance(motion);
+                let written = digits::direction(before, wanted, Lengths::Unit, within);
+                moved[..3].copy_from_slice(&written.to_array());
+                moved.to_vec()
+            };
             let changed = self.changed(&placed, &old, &new, spelled);
             Some(self.edits(&[(&placed, changed)]))
         });
@@ -165,7 +173,7 @@ impl Source {
                 let local = conformal(outside.matrix3).ok_or_else(uneven)?;
                 let axis = normalise(inside.matrix3 * axis).ok_or_else(uneven)?;
                 let turn = rotation(axis, local.signum() * angle);
-                self.turned(element, (linear, last), turn)
+                self.turned(element, (linear, last), turn, digits::tolerance(motion))
             }
             Motion::Scale { factor, along, .. } => {
                 let mut factors = DVec3::ONE;
@@ -217,22 +225,24 @@ impl Source {
         Ok(vec![self.inserted(element, None, &markup)])
     }
 
-    /// The edits that rotate an object by a rotation, or write one before another transform.
+    /// The edits that rotate an object by a rotation, or write one before another transform; what they
+    /// write points where it is to within this angle.
     fn turned(
         &self,
         element: usize,
         (old, before): (Option<&Transform>, Option<&Transform>),
         turn: DMat3,
+        within: f64,
     ) -> Vec<Edit> {
         let old = old.filter(|old| old.is("rotate"));
         let known = old.map_or(DMat3::IDENTITY, |old| old.matrix().matrix3);
         let turn = DQuat::from_mat3(&(turn * known)).normalize();
         let (axis, angle) = turn.to_axis_angle();
-        let degrees = rounded(0.0, angle.to_degrees(), 12);
-        let axis = axis.to_array().map(|number| rounded(0.0, number, PRECISE));
+        let (axis, degrees) = digits::turn(axis, angle.to_degrees(), within);
+        let axis = axis.to_array();
         let [x, y, z] = axis;
         if let Some(old) = old {
-            self.set_numbers(old, &[x, y, z, degrees], PRECISE)
+            self.set_exactly(old, &[x, y, z, degrees])
         } else {
             let mut text = attributes(&["x", "y", "z"], &axis, 0.0);
             text.push_str(&attributes(&["angle"], &[degrees], f64::NAN));
@@ -249,7 +259,8 @@ impl Source {
         decimals: usize,
     ) -> Vec<Edit> {
         // A factor needs digits that a short distance does not.
-        let decimals = decimals.max(2) + 1;
+        let least = factors.abs().min_element();
+        let decimals = digits::of_length(least, decimals.max(2) + 1);
         let is_uniform = factors.x == factors.y && factors.y == factors.z;
         match scale.filter(|scale| scale.is("scale")) {
             Some(scale) if is_uniform => self.scaled_evenly(scale, factors.x, decimals),
@@ -293,8 +304,12 @@ impl Source {
             .iter()
             .zip(new)
             .map(|(old, new)| rounded(*old, *new, decimals));
-        let new: Vec<_> = new.collect();
-        let changed = self.changed(&transform.placed, old, &new, |new| new.to_string());
+        self.set_exactly(transform, &new.collect::<Vec<_>>())
+    }
+
+    fn set_exactly(&self, transform: &Transform, new: &[f64]) -> Vec<Edit> {
+        let old = &transform.numbers;
+        let changed = self.changed(&transform.placed, old, new, |new| new.to_string());
         self.edits(&[(&transform.placed, changed)])
     }
 

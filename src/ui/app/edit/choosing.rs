@@ -150,8 +150,11 @@ fn choose_entry(shared: &mut Shared) {
     // A live edit knows what to leave; without one, another program may have changed the value since.
     let is_untouched = menu.live_edit.is_none() && menu.opened.as_ref() == Some(&name);
     match purpose {
-        Purpose::Value(_) | Purpose::Retype if is_untouched => {}
-        Purpose::Retype if select::own_kind(shared, node) == Some(&*name) => {}
+        Purpose::Retype if is_untouched || select::own_kind(shared, node) == Some(&*name) => {
+            let node = shared.source().name(node);
+            shared.say(format!("{node} is unchanged: it is already of type {name}"));
+        }
+        Purpose::Value(_) if is_untouched => {}
         Purpose::Value(_) => {
             choose_value(shared, &name);
             return;

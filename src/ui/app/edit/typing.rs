@@ -101,8 +101,10 @@ pub(crate) fn literals_of(shared: &Shared, text: &str) -> Result<Vec<Values>, St
     let values = typed::values(row.field, (shared.cursor.component, &row.literals), text);
     values.map(|values| vec![values]).or_else(|reason| {
         let below = shared.cursor.fields().iter().skip(shared.cursor.field);
-        let kinds = below.map(|placed| placed.field.kind);
-        typed::spread(kinds, text).ok_or(reason)
+        let below = below.map(|placed| (placed.field.key, placed.field.kind));
+        let kinds = below.clone().map(|(_, kind)| kind);
+        let spread = typed::spread(kinds, text);
+        spread.ok_or_else(|| typed::misfit(below, text).unwrap_or(reason))
     })
 }
 

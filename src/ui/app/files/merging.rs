@@ -4,15 +4,19 @@ use super::reading::{self, show_reload};
 use super::recover::restore_merged;
 use crate::app::{Dialog, MergeSource, OnDisk, Shared, Whose, text};
 use crate::msg::Effect;
+use ::text::counted;
 use document::{Adopted, Difference};
 
-/// Resolves the conflict under the cursor and goes on to the next.
+/// Resolves the conflict under the cursor and goes on to the next one that is not.
 pub(crate) fn decide(shared: &mut Shared, whose: Whose) {
     if let Some((merge, at, from)) = shared.overlays.conflict()
         && let Some(conflict) = merge.conflicts.get_mut(*at)
     {
         conflict.decision = Some(from.side(whose));
-        *at = (*at + 1).min(merge.conflicts.len() - 1);
+        let is_open = |at: &usize| merge.conflicts[*at].decision.is_none();
+        let count = merge.conflicts.len();
+        let next = (*at + 1..count).chain(0..*at).find(is_open);
+        *at = next.unwrap_or_else(|| (*at + 1).min(count - 1));
     }
 }
 
@@ -32,9 +36,16 @@ pub(crate) fn adopt(shared: &mut Shared) -> Vec<Effect> {
     };
     if let Some(open) = merge.conflicts.iter().position(|c| c.decision.is_none()) {
         *at = open;
-        let (mine, theirs) = (shared.key_for("mine"), shared.key_for("theirs"));
+        let left = merge
+            .conflicts
+            .iter()
+            .filter(|c| c.decision.is_none())
+            .count();
+        let [mine, theirs] = ["mine", "theirs"].map(|name| shared.key_for(name));
+        let [all_mine, all_theirs] = ["all-mine", "all-theirs"].map(|name| shared.key_for(name));
         shared.warn(format!(
-            "resolve all conflicts first: press {mine} for mine, {theirs} for the file's"
+            "{} left: {mine} mine, {theirs} theirs, {all_mine} and {all_theirs} for all",
+            counted(left, "conflict")
         ));
         return Vec::new();
     }
@@ -47,7 +58,7 @@ pub(crate) fn adopt(shared: &mut Shared) -> Vec<Effect> {
     let held = shared.cursor.hold(shared.document.shared_text());
     match shared.document.adopt(merge) {
         Adopted::Conflict(merge) => {
-            shared.overlays.ask_conflict(merge, from);
+            text::ask_conflict(shared, merge, from);
         }
         Adopted::Taken => {
             shared.disk.state = OnDisk::Known;

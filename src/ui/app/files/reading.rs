@@ -319,7 +319,7 @@ fn take_text(shared: &mut Shared, reading: Reading, settle: Settle) -> Vec<Effec
         News::Conflict(merge) => {
             offer(shared, buffer.as_ref());
             shared.disk.state = OnDisk::Changed;
-            shared.overlays.ask_conflict(merge, MergeSource::File);
+            text::ask_conflict(shared, merge, MergeSource::File);
             return Vec::new();
         }
         News::Broken(text, diagnostics) => {

@@ -164,7 +164,7 @@ pub(crate) fn restore(shared: &mut Shared) -> Vec<Effect> {
         }
         Way::Merge(merge) => {
             let from = MergeSource::Kept(claim, since);
-            shared.overlays.ask_conflict(merge, from);
+            text::ask_conflict(shared, merge, from);
             Vec::new()
         }
     }

@@ -23,10 +23,10 @@ const RECOVER: Scope = These(&[Context::Recover]);
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Row] = &[
     Key::new(CONFLICT, "mine", &[c('m')], "keep mine").does(|shared| files::decide(shared, Whose::Mine)),
-    Key::new(CONFLICT, "theirs", &[c('t')], "take the file's").does(|shared| files::decide(shared, Whose::Theirs)),
+    Key::new(CONFLICT, "theirs", &[c('t')], "take theirs").does(|shared| files::decide(shared, Whose::Theirs)),
     Key::new(CONFLICT, "accept", &[key(Enter)], "apply the merge").requests(files::adopt),
     Key::new(CONFLICT, "all-mine", &[c('M')], "keep mine everywhere").does(|shared| files::decide_all(shared, Whose::Mine)),
-    Key::new(CONFLICT, "all-theirs", &[c('T')], "take the file's everywhere").does(|shared| files::decide_all(shared, Whose::Theirs)),
+    Key::new(CONFLICT, "all-theirs", &[c('T')], "take theirs everywhere").does(|shared| files::decide_all(shared, Whose::Theirs)),
     Key::new(CONFLICT, "back", &[key(Esc)], "decide later").requests(files::put_off),
     Key::new(QUIT, "accept", &[c('y')], "quit anyway").requests(files::leave_anyway),
     Key::new(QUIT, "save", &[c('w')], "save and quit").requests(files::save_key),

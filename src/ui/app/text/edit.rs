@@ -9,7 +9,7 @@ use crate::app::{Shared, display};
 use assets::{Loaded, Wanted};
 use document::StepName;
 use language::{Lowered, Node, Outlook, outlook};
-use text::{Diagnostic, Edit, Findings, Severity, Span, parse_number};
+use text::{Diagnostic, Edit, Findings, Severity, Span, keep_columns, parse_number};
 
 /// Takes files of the scene that were read.
 pub(crate) fn assets_read(shared: &mut Shared, wanted: &Wanted, loaded: Loaded) {
@@ -118,11 +118,16 @@ pub(super) fn try_edits_after(
     let skipped = skipped_settings(shared, &shared.reported);
     let names = names_after(shared, edits);
     let step = name_of_value(shared, edits);
-    match edits {
+    let [mark, _] = shared.source().comment_marks();
+    let length = |span| Some(shared.document.at_first(span)?.chars().count());
+    let made = keep_columns(shared.document.text(), edits, mark, length);
+    match &made[..] {
         [edit] if !edit.span.is_empty() => shared.document.set(edit.span, &edit.text),
-        _ => shared.document.edit(edits),
+        _ => shared.document.edit(&made),
     }
-    let touched = spans_after(edits);
+    // Without the blanks behind what was to be written.
+    let own = |(span, edit): (Span, &Edit)| Span::new(span.start(), span.start() + edit.text.len());
+    let touched: Vec<_> = spans_after(&made).into_iter().zip(edits).map(own).collect();
     let lowered = lowered_after(shared, before);
     let touches = |d: &&Diagnostic| touched.iter().any(|span| d.span.touches(*span));
     let found = &lowered.diagnostics;

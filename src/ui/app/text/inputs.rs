@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use super::conflicts::ask_conflict;
 use super::edit::relower;
 use crate::app::{MergeSource, OnDisk, Shared};
 use document::Adopted;
@@ -23,7 +24,7 @@ pub(crate) fn merge_input(shared: &mut Shared) {
     match shared.document.merge_again(before) {
         Adopted::Conflict(merge) => {
             shared.disk.state = OnDisk::Changed;
-            shared.overlays.ask_conflict(merge, MergeSource::File);
+            ask_conflict(shared, merge, MergeSource::File);
         }
         Adopted::Taken if revision != shared.document.revision() => relower(shared),
         Adopted::Taken | Adopted::OutOfDate => {}

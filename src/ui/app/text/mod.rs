@@ -1,6 +1,7 @@
 //! Changes of the text: every one is an edit, tried out or kept, named, and undone as one step.
 
 mod assigning;
+mod conflicts;
 mod edit;
 mod inputs;
 mod live_editing;
@@ -9,6 +10,7 @@ mod setting;
 mod transient;
 
 pub(crate) use assigning::{assign, edits_of, sets_marked};
+pub(crate) use conflicts::ask_conflict;
 pub(crate) use edit::{
     assets_read, install, lowered, lowered_after, make_step, relower, spans_after, try_step,
 };

@@ -67,6 +67,22 @@ fn nodes_at(source: &Source, span: Span) -> Vec<Node> {
     touched
 }
 
+/// The span of the field of several numbers that a span is in; `None` if it is in none or in more.
+pub(crate) fn whole_field(source: &Source, span: Span) -> Option<Span> {
+    let [node] = nodes_at(source, span)[..] else {
+        return None;
+    };
+    let is_in = |own: &Span| own.start() <= span.start() && span.end() <= own.end();
+    let fields = source.fields(node);
+    let mut wholes = fields.iter().filter_map(|placed| {
+        let several = placed.spans.len() > 1;
+        let cover = placed.spans.iter().copied().reduce(Span::to);
+        cover.filter(|cover| several && is_in(cover))
+    });
+    let found = wholes.next()?;
+    wholes.next().is_none().then_some(found)
+}
+
 /// A node's name, with the field and component if the spans overlap only one.
 fn name_in(source: &Source, node: Node, spans: &[Span]) -> String {
     let overlap = |place: &Span, span: &Span| {

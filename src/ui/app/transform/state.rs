@@ -93,14 +93,20 @@ pub struct Transform {
 
 impl Transform {
     /// The decimals of the numbers that it changes: for moves by steps, what a cell can show.
-    /// Otherwise more, so that nothing of a typed amount is lost, and that the parts of what is
-    /// rotated or scaled stay together.
+    /// Otherwise more, so that nothing of a typed amount is lost, nor of a small fraction, and that the
+    /// parts of what is rotated or scaled stay together within a hundredth of a pixel.
     pub(crate) fn decimals(&self) -> usize {
-        const MORE: usize = 4;
-        match (self.typed.as_str(), self.tool) {
-            ("", Tool::Move) => self.step_decimals,
-            (typed, _) => self.step_decimals.max(decimals(typed)) + MORE,
-        }
+        const MORE: usize = 2;
+        let own = match (self.typed.as_str(), self.tool) {
+            ("", Tool::Move) => return self.step_decimals,
+            (typed, Tool::Move) => {
+                let numbers = self.typed_numbers().unwrap_or_default();
+                let own = numbers.into_iter().map(|number| decimals_of(number.abs()));
+                own.fold(decimals(typed), usize::max)
+            }
+            (typed, Tool::Rotate | Tool::Scale) => decimals(typed),
+        };
+        self.step_decimals.max(own) + MORE
     }
 
     /// The amount along the locked axis, or in the first direction: in world units, degrees, or as

@@ -3,11 +3,14 @@
 use super::arithmetic::{Fault, evaluate, fault};
 use super::literals;
 use language::schema::{Field, Kind};
-use text::{concise, counted, parse_number};
+use text::{alternatives, concise, counted, parse_number};
 
 /// Significant digits of a computed number: fewer than of an `f64`, so that no trace of binary
 /// fractions appears.
 const DIGITS: usize = 12;
+
+/// Significant digits of a computed number whose decimals do not end, such as 1/3.
+const ENDLESS_DIGITS: usize = 6;
 
 /// Operators that, followed by `=`, change the present value.
 const RELATIVE: [char; 4] = ['+', '-', '*', '/'];
@@ -83,12 +86,43 @@ pub(crate) fn spread(kinds: impl Iterator<Item = Kind>, text: &str) -> Option<Ve
     (left.is_empty() && 1 < fields.len()).then_some(fields)
 }
 
+/// How many numbers would set some fields, given by their names and kinds, where a list of numbers sets one
+/// of them by half; `None` for any other text.
+pub(crate) fn misfit<'n>(
+    fields: impl Iterator<Item = (&'n str, Kind)>,
+    text: &str,
+) -> Option<String> {
+    let parts = parts(text);
+    if parts.len() < 2 || !parts.iter().all(|(_, part)| value_of(part, "").is_ok()) {
+        return None;
+    }
+    let mut fits = Vec::new();
+    let (mut first, mut sum) = (None, 0);
+    for (name, kind) in fields.take_while(|(_, kind)| kind.is_numeric()) {
+        sum += kind.components();
+        fits.push(match *first.get_or_insert(name) {
+            first if first == name => format!("{sum} for {name}"),
+            first => format!("{sum} for {first} to {name}"),
+        });
+        if parts.len() <= sum {
+            break;
+        }
+    }
+    let last = fits.len().checked_sub(2)?;
+    let expected = alternatives(fits.drain(last..));
+    let count = parts.len();
+    Some(format!("{count} numbers do not fit: expected {expected}"))
+}
+
 /// Returns the numbers of a list of numbers and expressions.
 ///
 /// # Errors
 ///
 /// Fails with the reason and its column.
 pub(crate) fn numbers(text: &str) -> Result<Vec<f64>, String> {
+    if let Some(hint) = comma_hint(text) {
+        return Err(hint);
+    }
     let parts = parts(text);
     let numbers = parts.iter().map(|(at, part)| {
         evaluate(part).map_err(|fault| format!("column {}: {}", at + fault.at + 1, fault.reason))
@@ -111,6 +145,9 @@ fn computed(
             Err(fault) => Err(format!("column {}: {}", at + fault.at + 1, fault.reason)),
         }
     };
+    if let Some(hint) = comma_hint(text).filter(|_| !literals::is_all(kind, parts.len())) {
+        return Err(hint);
+    }
     let [_, _, ..] = &parts[..] else {
         let whole = parts.first().map(|part| (component, part));
         return whole.map_or_else(|| Err(expected(kind)), |whole| Ok(vec![set(whole)?]));
@@ -126,6 +163,13 @@ fn computed(
         return parts.iter().enumerate().map(set).collect();
     }
     Ok(vec![whole?])
+}
+
+/// What is to be written for a number with a decimal comma.
+fn comma_hint(text: &str) -> Option<String> {
+    let error = parse_number(text).err().filter(|_| text.contains(','))?;
+    let hint = error.hint(text)?;
+    hint.contains("separator").then_some(hint)
 }
 
 fn expected(kind: Kind) -> String {
@@ -193,11 +237,20 @@ fn value_of(part: &str, old: &str) -> Result<String, Fault> {
     }
 }
 
-/// Spells a computed value with at most [`DIGITS`] digits.
+/// Spells a computed value: one with at most [`DIGITS`] digits exactly, any other with a few.
 fn spelled(value: f64) -> String {
-    let rounded = format!("{value:.*e}", DIGITS - 1).parse();
+    let digits = format!("{value:.*e}", DIGITS - 1);
+    let is_endless = digits
+        .split('e')
+        .next()
+        .is_some_and(|digits| !digits.ends_with('0'));
+    let rounded = if is_endless {
+        format!("{value:.*e}", ENDLESS_DIGITS - 1)
+    } else {
+        digits
+    };
     // Adding 0 turns −0 into 0.
-    concise(rounded.unwrap_or(value) + 0.0)
+    concise(rounded.parse().unwrap_or(value) + 0.0)
 }
 
 #[cfg(test)]
@@ -227,9 +280,12 @@ mod tests {
             ("1e-3", "0=1e-3"),
             (".50", "0=.50"),
             ("0.5f", "0=0.5"),
-            ("1/3", "0=0.333333333333"),
+            ("1/3", "0=0.333333"),
+            ("1234.5+0.000001", "0=1234.500001"),
+            ("0,5", "the decimal separator is a point: write 0.5"),
+            ("-0,25", "the decimal separator is a point: write -0.25"),
             ("0.1+0.2", "0=0.3"),
-            ("-1/3", "0=-0.333333333333"),
+            ("-1/3", "0=-0.333333"),
             ("sin(30)", "0=0.5"),
             ("-0*1", "0=0"),
             ("10^20", "0=1e20"),
@@ -277,7 +333,8 @@ mod tests {
     #[test]
     fn expressions_fill_all_components() {
         for (text, expected) in [
-            ("1/3 0 sqrt(2)", "0=0.333333333333 1=0 2=1.41421356237"),
+            ("1/3 0 sqrt(2)", "0=0.333333 1=0 2=1.41421"),
+            ("0,5", "the decimal separator is a point: write 0.5"),
             ("1, (1 + 1), -.5e1", "0=1 1=2 2=-.5e1"),
             ("+=1 *=2 /=2", "0=2.5 1=4 2=1.5"),
             ("1 -2", "expected one number, or 3 numbers"),

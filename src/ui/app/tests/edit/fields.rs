@@ -138,7 +138,7 @@ scripts! {
             .table(script, r"2 0 0 // vl\n0.5 1 0 0 0 2 => 1 0 0 // vl\n0.0 1 0 0 0 1");
         scene("a.dat", dat::SCENE)
             .but(r"sphere ID 1 mat ID 1  0 0 0  1 => box ID 1 mat ID 1  0 0 0  2 0 0  3 3 0  0 0 -1  1 1 1")
-            .table(script, r"3 3 0  0 0 -1 => 0 4.242640687119285 0  0 0 -1");
+            .table(script, r"3 3 0  0 0 -1 => 0 4.2426 0  0 0 -1");
     };
 
     what_has_no_frame_says_so: for (name, text, named) in [
@@ -158,7 +158,21 @@ scripts! {
         [object 1] ej1 0 0 0 1 0 0 0 1<Enter> | text 0 0 1  1 0 0  0 1 0 => 1 0 0  0 1 0  0 0 1
         [object 1] ejjjj2 1/2 3<Enter>        | text 1 1 1 => 2 0.5 3
         [object 1] ejjjj2 1/2 3<Enter>u       | text opened
+        [object 1] ejjjjj0.1 0.5 0.1<Enter>   | text opened | refused 3 numbers do not fit: expected 2 for l2 to l3 or 5 for l2 to ka
     ");
+
+    blanks_before_a_comment_absorb_a_longer_number: {
+        let ball = || ray().but(r"1.5 // the radius => 1.5     // the radius");
+        ball().play(r"
+            [object 1] ej2.125<Enter> | text 1.5     // the radius => 2.125   // the radius
+            u                         | text opened
+        ");
+        // A run of nudges is one step, and none if it comes back.
+        ball().play(r"
+            [object 1] ejllllllllll | text 1.5     // the radius => 2.5     // the radius
+            hhhhhhhhhh              | text opened | not dirty
+        ");
+    };
 
     an_arrow_keeps_the_value_and_goes_to_the_next_field: scene(
         "scene.ray",

@@ -34,7 +34,7 @@ scripts! {
         jjje(1+2)/4<Enter>        | lines 0.75 0 0
         jjjej*=2<Enter>           | lines 3 // the radius
         jjjej/=3<Enter>           | lines 0.5 // the radius
-        jjje1/3 0 sqrt(2)<Enter>  | lines 0.333333333333 0 1.41421356237
+        jjje1/3 0 sqrt(2)<Enter>  | lines 0.333333 0 1.41421
         jjje7<Esc>                | text opened
         jjje7<Tab>8<Enter>        | lines 7 8 0
         // A hash begins to type a colour.
