@@ -102,9 +102,8 @@ fn text(scene: &Path, explanation: &Explanation, words: &Words) -> String {
         ..
     } = explanation;
     let linear = radiance.to_array().map(number).join(" ");
-    let mut text = format!(
-        "pixel {x},{y} of {name}, sample {sample}: {linear}, alone displayed as {red} {green} {blue}\n"
-    );
+    let mut text =
+        format!("pixel {x},{y} of {name}, sample {sample}: {linear}, 8-bit {red} {green} {blue}\n");
     for (number, sentence) in words.verdicts.iter().enumerate() {
         let kind = if number == 0 { "verdict" } else { "also" };
         add_sentence(&mut text, &name, kind, sentence);

@@ -115,7 +115,7 @@ pub enum Error {
         source: Unreadable,
     },
     /// A picture does not say what it is made from.
-    #[error("{} does not say what it is made from", .0.display())]
+    #[error("{} has no Halflight metadata", .0.display())]
     NoProvenance(PathBuf),
     /// A file is of no format that says what a picture is made from.
     #[error("{} is not a PNG or EXR file", .0.display())]

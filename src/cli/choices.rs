@@ -131,15 +131,15 @@ pub(super) enum AovChoice {
     Uv,
     /// Side of the surface seen: blue its front, orange its back; in EXR and HDR 1 and −1.
     Side,
-    /// Rays traced for a sample of light, including shadow rays: dark few, bright many.
+    /// Rays per sample of light, with shadow rays (dark = few).
     Cost,
-    /// Samples taken of the light: dark few, bright many.
+    /// Samples per pixel (dark = few).
     Samples,
-    /// Estimated error of the light, 0 to 1: dark small, bright large.
+    /// Estimated error of the light, 0 to 1 (dark = small).
     Noise,
-    /// The share of the light that is seen to glow: emission, ambient light, background.
+    /// Emitted, ambient and background light only.
     Emission,
-    /// The share of the light that arrives over further surfaces.
+    /// Indirect light only: what arrives by way of other surfaces.
     Indirect,
 }
 

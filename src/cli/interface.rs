@@ -55,7 +55,7 @@ pub(super) struct InterfaceArguments {
     /// Colours of the interface [default: dark]
     #[arg(long, value_name = "THEME", value_enum)]
     theme: Option<ThemeChoice>,
-    /// What pixels of pictures are drawn with [default: auto]
+    /// How to draw pixels [default: auto]
     #[arg(long, value_name = "PIXELS", value_enum)]
     pixels: Option<PixelsChoice>,
     /// Do not capture the mouse

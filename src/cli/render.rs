@@ -94,8 +94,8 @@ struct ContentArguments {
     )]
     layers: Vec<AovChoice>,
     /// Reduce the noise of light, guided by surfaces and by the noise of each pixel: a picture of few
-    /// samples looks like one of many, but is no longer unbiased; not of a --shard of a picture, nor
-    /// with --resume, which know only parts of it
+    /// samples looks like one of many, but is no longer unbiased; cannot be combined with --shard or
+    /// --resume
     #[arg(long)]
     denoise: bool,
 }

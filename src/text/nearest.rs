@@ -2,10 +2,14 @@
 
 use super::Diagnostic;
 
+/// The shortest beginning of a word that is taken for it.
+const BEGINNING: usize = 4;
+
 /// Returns the known word closest to a word, regardless of case: at most two typing slips apart,
-/// and one if it is short.
+/// and one if it is short; otherwise the only one that it begins.
 pub fn nearest_word<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let close = known.into_iter().filter_map(|known| {
+    let known: Vec<_> = known.into_iter().collect();
+    let close = known.iter().copied().filter_map(|known| {
         // More slips would make a short word unrecognisable.
         let allowed = match known.len() {
             0 | 1 => 0,
@@ -19,9 +23,16 @@ pub fn nearest_word<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) ->
         let slips = edit_distance(word, known);
         (slips <= allowed).then_some((slips, known))
     });
-    close
-        .min_by_key(|&(slips, _)| slips)
-        .map(|(_, known)| known)
+    let closest = close.min_by_key(|&(slips, _)| slips);
+    let begins = |known: &&&str| {
+        let start = known.get(..word.len()).filter(|_| BEGINNING <= word.len());
+        start.is_some_and(|start| start.eq_ignore_ascii_case(word))
+    };
+    let only_begun = || {
+        let mut begun = known.iter().filter(begins);
+        begun.next().filter(|_| begun.next().is_none()).copied()
+    };
+    closest.map(|(_, known)| known).or_else(only_begun)
 }
 
 /// Adds a question after the word that was probably meant in its place; `otherwise` if none is known.
@@ -64,7 +75,17 @@ mod tests {
 
     #[test]
     fn the_nearest_word_is_few_slips_away() {
-        let known = ["box", "Sphere", "spheres", "torus", "x", "y"];
+        let known = [
+            "box",
+            "Sphere",
+            "spheres",
+            "torus",
+            "x",
+            "y",
+            "refraction",
+            "reflected",
+            "reflection",
+        ];
         let long = "s".repeat(100_000);
         for (word, nearest) in [
             ("sphere", Some("Sphere")),
@@ -74,6 +95,10 @@ mod tests {
             ("shperse", None),
             ("tours", Some("torus")),
             ("bxo", None),
+            // The only word that it begins.
+            ("spher", Some("Sphere")),
+            ("refract", Some("refraction")),
+            ("refl", None),
             ("bx", Some("box")),
             ("X", Some("x")),
             ("z", None),

@@ -102,7 +102,7 @@ fn cases() -> Vec<Case> {
         case(
             "unknown.dat",
             many("obj sphere ID 1 mat ID 7 0 0 0 1\n", MB / 2),
-            "there is no material 7 above",
+            "material 7 is not defined above",
             3 * MB,
         ),
         case(

@@ -372,7 +372,7 @@ impl<'a, L: Language> Reader<'a, L> {
                 });
                 let is_below = all.get(&(category, id)).is_some_and(|&below| at < below);
                 let word = category.word();
-                let message = format!("there is no {word} {id} above");
+                let message = format!("{word} {id} is not defined above");
                 let shown = self.smallest[category as usize].iter();
                 let shown: Vec<_> = shown.map(ToString::to_string).collect();
                 let hint = match shown.len() {

@@ -164,7 +164,7 @@ impl SceneText for Source {
     }
 
     fn visibility_edits(&self, _: &[usize], _: Visibility) -> Result<Vec<Edit>, &'static str> {
-        Err("a .ray scene draws all of its objects")
+        Err(".ray cannot hide objects")
     }
 }
 

@@ -242,7 +242,7 @@ impl SceneText for Source {
     }
 
     fn visibility_edits(&self, _: &[usize], _: Visibility) -> Result<Vec<Edit>, &'static str> {
-        Err("an .xml scene draws all of its objects")
+        Err(".xml cannot hide objects")
     }
 }
 

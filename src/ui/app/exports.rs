@@ -330,7 +330,7 @@ fn traced(shared: &Shared, size: Size, spp: u32) -> Option<Arc<Frame>> {
 /// Cancels the running export; those that wait go on.
 pub(crate) fn cancel_export(shared: &mut Shared) -> Vec<Effect> {
     let Some(export) = shared.jobs.end_export(|_| true) else {
-        shared.say("nothing is running");
+        shared.say("no export is running");
         return Vec::new();
     };
     shared.jobs.next = None;

@@ -162,7 +162,7 @@ fn answer_unknown(shared: &mut Shared, context: Context, key: KeyEvent) {
         (None, _) => format!("`{name}` is not bound here"),
     };
     let help = match shared.keymap.key(context, "help") {
-        Some(key) if context != Context::Help => format!("; {key} lists keys"),
+        Some(key) if context != Context::Help => format!("; {key} for keys"),
         _ => String::new(),
     };
     shared.overlays.answer(format!("{words}{help}"));

@@ -189,7 +189,7 @@ pub(crate) fn cure(shared: &mut Shared) {
     shared.say(if is_early || shared.suggestions.are_awaited() {
         "no suggestion yet: too little is traced"
     } else {
-        "there is no render setting to suggest"
+        "no suggestion for this scene"
     });
 }
 

@@ -30,7 +30,7 @@ fn explained(place: &Place, words: &str) -> String {
 fn a_pixel_in_shadow_is_said_to_be_so_with_its_places() {
     let printed = explained(&scene(), "a.ray 20 15");
     let verdict = "\
-pixel 20,15 of a.ray, sample 0: 0.02 0.02 0.02, alone displayed as 5 5 5
+pixel 20,15 of a.ray, sample 0: 0.02 0.02 0.02, 8-bit 5 5 5
 verdict: in the shadow of object 2 (sphere, line 5) from light 1 (line 2)  [a.ray:5:1]
   help: move the light, or what is in between
 also: object 1 (sphere, line 4) lit by ambient light (0.02)  [a.ray:4:1]

@@ -285,16 +285,8 @@ fn pictures_that_say_nothing_are_refused() {
     for (picture, code, expected) in [
         ("a.bmp", 65, "a.bmp is not a PNG or EXR file"),
         ("text.png", 65, "text.png is not a PNG or EXR file"),
-        (
-            "silent.png",
-            65,
-            "silent.png does not say what it is made from\n",
-        ),
-        (
-            "empty.png",
-            65,
-            "empty.png does not say what it is made from\n",
-        ),
+        ("silent.png", 65, "silent.png has no Halflight metadata\n"),
+        ("empty.png", 65, "empty.png has no Halflight metadata\n"),
         ("bad.png", 65, "bad.png is not a valid picture: "),
         ("none.png", 66, "none.png: no such file"),
     ] {

@@ -272,7 +272,7 @@ impl Lowering<'_> {
                 }
                 is_known = false;
                 self.reader.report.error(|| {
-                    let message = format!("{}: there is no {noun} {index} above", record.name);
+                    let message = format!("{}: {noun} {index} is not defined above", record.name);
                     let expected = format!("the number of a {noun} above, from 0");
                     let hint = match count {
                         0 => format!("no {noun} is given yet: it must come first"),

@@ -82,7 +82,7 @@ obj sphere ID 1 mat ID 0  0 0 0  -1
 obj ball ID 2 mat ID 0  0 0 0  1
         #~ 5 error: obj: unknown kind `ball`
 obj sphere ID 3 mat ID 8  0 0 0
-        #~ 24 error: there is no material 8 above
+        #~ 24 error: material 8 is not defined above
         #~ 32 error: object 3 (sphere): the line ends where radius is expected; 1 more token
 obj quadric ID 4 mat ID 0  1 0 0 0 1 0 0 1 0 z  2  0 0 0 1  a 1 b 2
         #~ 46 error: object 4 (quadric) J: `z` is not a number
@@ -90,7 +90,7 @@ obj quadric ID 4 mat ID 0  1 0 0 0 1 0 0 1 0 z  2  0 0 0 1  a 1 b 2
         #~ 61 error: object 4 (quadric) cut x: `a` is not a number
         #~ 65 error: object 4 (quadric) cut z: `b` is not a number
 render 1 ID 9
-        #~ 13 error: there is no object 9 above",
+        #~ 13 error: object 9 is not defined above",
     );
 }
 
@@ -294,12 +294,12 @@ fn ids_are_unique_and_defined_before_use() {
         "obj sphere ID 1.0 BALL 2\n#~ 15 error: obj ID: must be a whole number, not `1.0`",
         "obj sphere ID 99999999999999999999 BALL 2\n#~ 15 error: obj ID: must be a whole number, not",
         "obj sphere ID 1 mat ID x 0 0 0 1\n#~ 24 error: object 1 (sphere) mat: must be a whole number, not `x`",
-        "obj sphere ID 1 mat ID 7 0 0 0 1\n#~ 24 error: there is no material 7 above",
+        "obj sphere ID 1 mat ID 7 0 0 0 1\n#~ 24 error: material 7 is not defined above",
         // Materials and operands must come first.
-        "obj sphere ID 1 mat ID 7 0 0 0 1\n#~ 24 error: there is no material 7 above\nmat ID 7 MAT",
-        "obj CSG ID 1 union ID 0 ID 2\n#~ 28 error: there is no object 2 above\nobj sphere ID 2 BALL 1",
-        "obj CSG ID 1 union ID 1 ID 1\n#~ 23 error: there is no object 1 above\n#~ 28 error: there is no object 1 above",
-        "use colour ID 1 mat ID 0\n#~ 15 error: there is no texture 1 above\ntexture ID 1 checker 1 1 1 1 1 0 0 0",
+        "obj sphere ID 1 mat ID 7 0 0 0 1\n#~ 24 error: material 7 is not defined above\nmat ID 7 MAT",
+        "obj CSG ID 1 union ID 0 ID 2\n#~ 28 error: object 2 is not defined above\nobj sphere ID 2 BALL 1",
+        "obj CSG ID 1 union ID 1 ID 1\n#~ 23 error: object 1 is not defined above\n#~ 28 error: object 1 is not defined above",
+        "use colour ID 1 mat ID 0\n#~ 15 error: texture 1 is not defined above\ntexture ID 1 checker 1 1 1 1 1 0 0 0",
         "light ID 1 inf 0 0 1 0 0 0 1 1 1 1 0 0 0 shadow_on\nlight ID 1 inf 0 0 1 0 0 0 1 1 1 1 0 0 0 shadow_on\n#~ 10 warning: light 1: already defined above",
         // Records with errors still define their ID: no error follows from another.
         "obj sphere ID 1 BALL x\n#~ 33 error: object 1 (sphere) radius: `x` is not a number\nobj CSG ID 2 union ID 0 ID 1\nrender 2 ID 1 ID 2",

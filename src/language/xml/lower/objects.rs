@@ -1,5 +1,7 @@
 //! Objects: their positions, after all transforms around them, and their materials.
 
+use std::collections::BTreeSet;
+
 use glam::{DAffine3, DVec3};
 
 use super::Lowering;
@@ -12,7 +14,7 @@ use crate::xml::parameter::Type;
 use crate::xml::schema::{GROUP, OBJ, PLANE, SPHERE};
 use geometry::{Affine, Ellipsoid, Plane, Shape, Solid, Sphere};
 use scene::{Material, Object, Rgb};
-use text::Diagnostic;
+use text::{Diagnostic, Span, nearest_word};
 
 /// An object's frame; `None` if its error was already reported.
 type Frame = Option<DAffine3>;
@@ -166,10 +168,36 @@ impl Lowering<'_> {
         let found = self.named.get(name).copied();
         if found.is_none() {
             let span = self.value(element, "material").map(|at| at.value);
-            let message = || format!("material: no material is named {}", quoted(name));
-            let (expected, hint) = ("the name of a material", "the object is unlit white");
-            self.warn(span.unwrap_or_default(), message, expected, hint);
+            let named = &self.named;
+            self.report
+                .warning(|| unknown_material(name, span.unwrap_or_default(), named.keys()));
         }
         found
+    }
+}
+
+/// The warning for a name that no material has.
+fn unknown_material<'n>(
+    name: &str,
+    span: Span,
+    named: impl Iterator<Item = &'n &'n str>,
+) -> Diagnostic {
+    const FLAT: &str = "the object is drawn flat white";
+    // Sorted, so that the answer is always the same.
+    let known: BTreeSet<_> = named.copied().collect();
+    let meant = nearest_word(name, known);
+    let message = format!("material: no material named {}", quoted(name));
+    let warning = Diagnostic::warning(span, message, "the name of a material");
+    match meant {
+        None => warning.with_hint(FLAT),
+        Some(meant) => {
+            let warning = warning.with_hint(format!("{FLAT}; did you mean `{meant}`?"));
+            let is_plain = !meant.contains(['&', '<', '"', '\'']);
+            if is_plain {
+                warning.with_fix(span, meant)
+            } else {
+                warning
+            }
+        }
     }
 }

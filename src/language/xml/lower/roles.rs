@@ -185,10 +185,10 @@ impl<'a> Lowering<'a> {
         let place = places.find(|(_, words)| words.contains(&self.name(element)));
         let hint = match (place, nearest) {
             (Some((place, _)), _) => format!("it is skipped; it belongs in `{place}`"),
-            (None, None) => "it is skipped with all its content".to_owned(),
+            (None, None) => "it is ignored, with all that is in it".to_owned(),
             (None, Some(_)) => SKIPPED.to_owned(),
         };
-        let expected = listed(&known, "nothing");
+        let expected = listed(&known, "no elements");
         let message = || format!("{name}: unknown in {outer}");
         let nearest = nearest.filter(|_| place.is_none());
         let names = self.tree.elements[element].names();

@@ -72,7 +72,7 @@ fn each_mistake_has_its_message() {
         ),
         (
             "<object type='sphere' material='m'/>",
-            "warning: material: no material is named `m`",
+            "warning: material: no material named `m`",
         ),
         (
             "<object type='obj'/>",
@@ -243,8 +243,27 @@ fn all_errors_are_reported_at_once_at_their_places() {
     ];
     assert_eq!(shown(text, &lowered), expected);
     let hint = lowered.diagnostics[1].hint.as_deref();
-    assert_eq!(hint, Some("it is skipped with all its content"));
+    assert_eq!(hint, Some("it is ignored, with all that is in it"));
     assert_eq!(lowered.diagnostics[0].span, Span::new(53, 54));
+}
+
+#[test]
+fn names_that_were_probably_meant_are_asked_about() {
+    for (text, expected) in [
+        (
+            around("<material name='red'/><object type='sphere' material='Red'/>"),
+            "the object is drawn flat white; did you mean `red`?",
+        ),
+        (
+            around("<material name='a&amp;b'/><object type='sphere' material='A&amp;b'/>"),
+            "the object is drawn flat white; did you mean `a&b`?",
+        ),
+    ] {
+        let (_, lowered) = read(&text);
+        let hints = lowered.diagnostics.iter();
+        let hints: Vec<_> = hints.filter_map(|d| d.hint.as_deref()).collect();
+        assert!(hints.contains(&expected), "{text}: {hints:?}");
+    }
 }
 
 #[test]

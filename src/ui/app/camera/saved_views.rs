@@ -82,7 +82,7 @@ fn save_view_as(shared: &mut Shared, name: &str) {
         (Err(reason), _) => shared.fail(reason),
         (Ok(_), None) => shared.fail("cannot save the view while the scene has errors"),
         (Ok(name), Some(camera)) => {
-            let done = format!("view {name} is now in the scene's text");
+            let done = format!("saved view {name} to the scene");
             let step = format!("saved the view {name}");
             edit_saved_view(shared, &name, Some(&camera), (step, done));
         }

@@ -103,6 +103,6 @@ pub(crate) fn save_view(shared: &mut Shared) {
     let edits = shared.source().view_edits(&scene.camera, &view);
     if text::make_step(shared, &edits, "wrote the view") {
         shared.pictures.view = None;
-        shared.say("the view is now in the scene's text");
+        shared.say("saved the view to the scene");
     }
 }

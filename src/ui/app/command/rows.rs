@@ -124,12 +124,12 @@ fn zoom(said: &str) -> Result<Run, String> {
 }
 
 fn follow(said: &str) -> Result<Run, String> {
-    let follow = Follow::named(said).ok_or("follow takes typing or saving")?;
+    let follow = Follow::named(said).ok_or(":follow needs typing or saving")?;
     Ok(Run::requests(move |_| vec![Effect::FollowBuffers(follow)]))
 }
 
 fn size(said: &str) -> Result<Run, String> {
-    let size = Size::parse(said).ok_or("size takes a size such as 800x600")?;
+    let size = Size::parse(said).ok_or(":size needs WIDTHxHEIGHT, such as 800x600")?;
     // The format with the highest limit.
     match ImageFormat::Ppm.refuses(size) {
         None => Ok(Run::does(move |shared| text::set_size(shared, size))),
@@ -150,7 +150,7 @@ fn exposure(said: &str) -> Result<Run, String> {
     };
     let half_stops = half_stops.filter(is_known).ok_or_else(|| {
         let most = MOST_HALF_STOPS / 2;
-        format!("exposure takes stops from -{most} to {most}, in steps of 0.5")
+        format!(":exposure needs EV from -{most} to {most}, in steps of 0.5")
     })?;
     Ok(Run::does(move |shared| {
         display::set_exposure(shared, half_stops as i8);
@@ -159,6 +159,7 @@ fn exposure(said: &str) -> Result<Run, String> {
 
 fn pixels(said: &str) -> Result<Run, String> {
     let pixels = Pixels::named(said);
-    let pixels = pixels.ok_or_else(|| format!("pixels takes {}", Pixels::names()))?;
+    let pixels =
+        pixels.ok_or_else(|| format!("no pixel mode `{said}`; modes: {}", Pixels::names()))?;
     Ok(Run::does(move |shared| shared.pixels = pixels))
 }

@@ -101,9 +101,9 @@ pub(crate) fn toggle_denoising(shared: &mut Shared) -> Vec<Effect> {
     let denoised = !shared.pictures.display.denoised;
     shared.pictures.display.denoised = denoised;
     shared.say(if denoised {
-        "noise is reduced, on screen only"
+        "denoise on, on screen only"
     } else {
-        "noise is no longer reduced"
+        "denoise off"
     });
     shared.pictures.preview.asked = None;
     retrace(shared)

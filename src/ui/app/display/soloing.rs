@@ -45,7 +45,7 @@ pub(crate) fn toggle_solo_of(shared: &mut Shared, targets: &[Node]) {
         shared.pictures.solo = Some(solo);
         let name = shared.targets_name(targets);
         let solo = shared.key_for("solo");
-        let words = format!("the preview shows only {name}; {solo} shows everything");
+        let words = format!("solo: {name} ({solo} to show all)");
         shared.say(words);
     }
     shared.pictures.due = true;

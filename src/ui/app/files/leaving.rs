@@ -11,7 +11,7 @@ use crate::keymap::Mode;
 use crate::msg::{Effect, SaveId, SaveOutcome, Timer};
 
 /// The loss of the working view.
-const LOST_VIEW: &str = "the moved view is not in the text";
+const LOST_VIEW: &str = "the moved view is not saved";
 
 /// A second Ctrl-C within this time ends the program.
 const INTERRUPT_AGAIN: Duration = Duration::from_secs(2);

@@ -134,7 +134,7 @@ fn unwritten_view(shared: &Shared) -> String {
     } else {
         " in VIEW"
     };
-    format!("; the moved view is not in the text: {key}{place} writes it")
+    format!("; the moved view is not saved: {key}{place} writes it")
 }
 
 /// Counts another second of running saves and exports.

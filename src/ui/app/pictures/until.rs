@@ -29,7 +29,7 @@ impl Until {
             };
             let level = level.trim().parse::<f64>().map(|level| each * level);
             let level = level.ok().filter(|level| 0.0 < *level && *level < 1.0);
-            let expected = || "noise takes a level above 0 and below 1, such as 0.01 or 1 %";
+            let expected = || ":until noise needs a level between 0 and 1, such as 0.01 or 1 %";
             return level.map(Self::Noise).ok_or_else(|| expected().to_owned());
         }
         if let Some(count) = said.strip_suffix("spp") {
@@ -41,7 +41,7 @@ impl Until {
         let has_unit = said.ends_with(|c: char| c.is_ascii_alphabetic());
         let time = parse_duration(said).filter(|_| has_unit);
         time.map(Self::Time).ok_or_else(|| {
-            "until takes samples, a time or a noise: 256 spp, 30 s, noise 0.01".to_owned()
+            ":until needs samples, a time or a noise level: 256 spp, 30 s, noise 0.01".to_owned()
         })
     }
 
@@ -71,7 +71,7 @@ mod tests {
 
     #[test]
     fn ends_of_traces_are_read_and_told() {
-        let wrong = "until takes samples";
+        let wrong = ":until needs samples";
         for (said, told) in [
             ("256 spp", Ok("at 256 spp")),
             ("1spp", Ok("at 1 spp")),
@@ -80,8 +80,8 @@ mod tests {
             ("1.5min", Ok("after 90 s")),
             ("noise 0.01", Ok("below a noise of 1 %")),
             ("noise 0.5 %", Ok("below a noise of 0.5 %")),
-            ("noise 1", Err("noise takes a level")),
-            ("noise", Err("noise takes a level")),
+            ("noise 1", Err(":until noise needs a level")),
+            ("noise", Err(":until noise needs a level")),
             ("30", Err(wrong)),
             ("tomorrow", Err(wrong)),
         ] {

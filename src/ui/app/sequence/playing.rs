@@ -300,7 +300,7 @@ fn keep_frame(sequence: &mut Sequence, shared: &mut Shared) {
     open.is_playing = false;
     let shown = shared.transient.take();
     if shown.is_some_and(|shown| shown.live_edit.is_applied) {
-        let words = format!("the scene now has the values of frame {}", open.frame);
+        let words = format!("applied frame {} to the scene", open.frame);
         let undo = shared.key_for("undo");
         shared.say(format!("{words}; {undo} undoes that"));
     }

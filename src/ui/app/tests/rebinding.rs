@@ -13,7 +13,7 @@ scripts! {
     a_bound_key_acts_and_the_one_it_replaces_does_not: rebound().play(r"
         jjjjd
         @note deleted text
-        u         | text deleted | says `u` in SEQUENCE (T): undo the last key; ? lists keys
+        u         | text deleted | says `u` in SEQUENCE (T): undo the last key; ? for keys
         <Ctrl-x>u | text opened
     ");
 
@@ -34,7 +34,7 @@ scripts! {
         select Q: copy   | p             | nothing to paste: Q copies the selected item
         select Q: paste  | jjjy          | copied: object 1 (sphere); Q pastes it
         select Q: camera | m             | Q moves the camera
-        select Q: solo   | jjjQ          | the preview shows only object 1 (sphere); Q shows everything
+        select Q: solo   | jjjQ          | solo: object 1 (sphere) (Q to show all)
         move Q: accept   | jjjmw         | Q confirms the change first; Esc cancels it
     ");
 

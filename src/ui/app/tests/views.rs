@@ -13,7 +13,7 @@ fn ahead<'s>() -> Stage<'s> {
 scripts! {
     a_moved_view_is_not_lost_in_silence: {
         ray().table(r"
-            vh<Esc>{1} | not does quit | asks {2} | loses the moved view is not in the text | text opened
+            vh<Esc>{1} | not does quit | asks {2} | loses the moved view is not saved | text opened
         ", r"
             q           | quit
             :q<Enter>   | quit
@@ -57,7 +57,7 @@ scripts! {
 
     saving_before_leaving_asks_only_about_the_view_then: ray().play(r"
         vh<Esc>jjjel<Esc>qw
-        @saved | not does quit | loses the moved view is not in the text | says wrote scene.ray | answers Syn
+        @saved | not does quit | loses the moved view is not saved | says wrote scene.ray | answers Syn
         w      | not does | says press S, y or n
         y      | does quit
     ");
@@ -69,9 +69,9 @@ scripts! {
     "#);
 
     saving_mentions_a_moved_view: ray().play(r"
-        vhw    | says nothing to save; the moved view is not in the text: S writes it
+        vhw    | says nothing to save; the moved view is not saved: S writes it
         <Esc>jjjel<Esc>w
-        @saved | says wrote scene.ray; the moved view is not in the text: S in VIEW writes it
+        @saved | says wrote scene.ray; the moved view is not saved: S in VIEW writes it
     ");
 
     a_camera_that_would_see_nothing_stays_and_says_so: listed(&format!(
@@ -134,7 +134,7 @@ scripts! {
         scene(name, text).play(r"
             @note own camera
             vV            | says no saved views: :view save NAME saves this one
-            h:view save front  door<Enter> | says view front door is now in the scene's text
+            h:view save front  door<Enter> | says saved view front door to the scene
             @note front stands
             kk,:view save above<Enter>0 | camera {own} | views front door, above | not errors
             V<Enter>      | says view front door | stands {front} | not page

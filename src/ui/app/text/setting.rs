@@ -34,7 +34,7 @@ impl SettingOrder {
         let key = RenderKey::of_text().find(|key| key.name() == word);
         let key = key.ok_or_else(|| {
             let names: Vec<_> = RenderKey::of_text().map(RenderKey::name).collect();
-            format!(":set takes {}", names.join(", "))
+            format!("no setting `{word}`; settings: {}", names.join(", "))
         })?;
         let to = match value.trim() {
             "" => To::InUse,

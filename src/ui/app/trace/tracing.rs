@@ -87,7 +87,7 @@ pub(super) fn toggle_pause(shared: &mut Shared) -> Vec<Effect> {
             vec![Effect::Pause(Target::Trace)]
         }
         Some(trace) if trace.is_complete() => {
-            shared.say("the picture is complete: there is nothing to pause");
+            shared.say("the trace is already finished");
             Vec::new()
         }
         _ => start(shared),

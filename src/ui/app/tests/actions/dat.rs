@@ -114,7 +114,7 @@ pub(super) const ROWS: &str = r"
     :view save | object 1 | :view save side<Enter> | {drawn} +> # view side: eye 0 0 10 target 0 0 0 up 0 1 0 fov 112.6199\n
     :view save | object 1 | vl:view save<Enter> | 0 0 10\s => 0.8716 0 9.9619\s
     :size | object 1 | :size 320x200<Enter> | 0  1\s => 0  0.666666666666667\s & 400 300\n => 320 200\n
-    cure | object 1 | C | says there is no render setting to suggest
+    cure | object 1 | C | says no suggestion for this scene
     :set | object 1 | :set depth 3<Enter> | # view front: => # render: depth 3\n# view front:
     delete-view | object 1 | vVd<Esc> | # view front: eye 0 0 5 target 0 0 0 up 0 1 0 fov 60\n =>
 ";

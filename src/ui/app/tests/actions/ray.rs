@@ -49,8 +49,8 @@ pub(super) const ROWS: &str = r"
     rename | light 1 | R<Ctrl-u><Enter> | \s// lamp =>
     rename | light 1 | R<Ctrl-u>view: here<Enter> | says a comment that begins with view: would set the view
     rename | view | R | says view has no name
-    visibility | object 1 | h | says a .ray scene draws all of its objects
-    visibility | object 1 | <Space><Space>h | says a .ray scene draws all of its objects
+    visibility | object 1 | h | says .ray cannot hide objects
+    visibility | object 1 | <Space><Space>h | says .ray cannot hide objects
     change-type | object 1 | cellipsoid<Enter> | sphere 0 0 0\s => ellipsoid  0 0 0  1 0 0  0 1 0  0 0 1  1  1 \s
     change-type | object 2 | ccyl<Enter>
         | box 2 0 0  1 0 0  0 1 0  0 0 1  1 2\s => cylinder  2.5 1 0  1 0 0  0 1 0  0 0 1  0.5  1 \s
@@ -89,7 +89,7 @@ pub(super) const ROWS: &str = r"
     :view save | object 1 | :view save side<Enter> | {box} +> // view side: eye 0 0 10 target 0 0 0 up 0 1 0 fov 90\n
     :view save | object 1 | vl:view save<Enter> | 0 0 10\s => 0.8716 0 9.9619\s
     :size | object 1 | :size 320x200<Enter> | 400 300\n => 320 200\n
-    cure | object 1 | C | says there is no render setting to suggest
+    cure | object 1 | C | says no suggestion for this scene
     :set | object 1 | :set depth 3<Enter> | // view: eye => // render: depth 3\n// view: eye
     delete-view | object 1 | vVd<Esc> | // view front: eye 0 0 5 target 0 0 0 up 0 1 0 fov 60\n =>
 ";

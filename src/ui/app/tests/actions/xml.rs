@@ -82,8 +82,8 @@ pub(super) const ROWS: &str = r#"
     rename | object 1 | R<Ctrl-u>9<Enter> | name="a"\s => name="9"\s
     rename | material 1 | R<Ctrl-u>8<Enter> | material="m">\n => material="8">\n & name="m">\n => name="8">\n
     rename | light 1 | R<Ctrl-u>7<Enter> | name="lamp">\n => name="7">\n
-    visibility | object 1 | h | says an .xml scene draws all of its objects
-    visibility | object 1 | <Space><Space>h | says an .xml scene draws all of its objects
+    visibility | object 1 | h | says .xml cannot hide objects
+    visibility | object 1 | <Space><Space>h | says .xml cannot hide objects
     change-type | object 1 | cplane<Enter> | type="sphere"\s => type="plane"\s
     change-type | material 1 | cphong<Enter> | type="blinn"\s => type="phong"\s
     change-type | light 1 | cdirect<Enter> | type="point"\s => type="direct"\s
@@ -126,7 +126,7 @@ pub(super) const ROWS: &str = r#"
     :view save | object 1 | vl:view save<Enter> | z="10"/>\n => z="9.9619" x="0.8716"/>\n
     :size | object 1 | :size 320x200<Enter>
         | \s   <width value="400"/>\n    <height value="300"/>\n => \s   <width value="320"/>\n    <height value="200"/>\n
-    cure | object 1 | C | says there is no render setting to suggest
+    cure | object 1 | C | says no suggestion for this scene
     :set | object 1 | :set depth 3<Enter> | \s </camera>\n +> \s <render depth="3"/>\n
     delete-view | object 1 | vVd<Esc> | \s <!-- view front: eye 0 0 5 target 0 0 0 up 0 1 0 fov 60 -->\n =>
 "#;

@@ -10,7 +10,7 @@ scripts! {
         <Lt>                  | exposed 2 | not does trace preview | says exposure +1 EV, on screen only
         :exposure -2.5<Enter> | exposed -5 | not does trace preview | says exposure -2.5 EV, on screen only
         :exposure 0.25<Enter> | exposed -5 | not does trace preview
-        | says exposure takes stops from -20 to 20, in steps of 0.5
+        | says :exposure needs EV from -20 to 20, in steps of 0.5
         :exposure 0<Enter>    | exposed 0 | not does trace preview | says exposure 0
         :exposure 20<Enter>>  | exposed 40 | not does trace preview | says exposure +20 EV, on screen only
         | exposure +20 EV
@@ -26,7 +26,7 @@ scripts! {
     ");
 
     noise_is_reduced_on_screen_and_in_no_file: ray().play(r"
-        ~ | does trace preview | job denoise true | says noise is reduced, on screen only
+        ~ | does trace preview | job denoise true | says denoise on, on screen only
         | exposure denoised | denoised
         // A complete picture without is too large for it.
         @started preview 1
@@ -39,7 +39,7 @@ scripts! {
         ~               | says only light has noise to reduce; press 1
         1
         :denoise<Enter> | does trace preview | job denoise false
-        | says noise is no longer reduced | not exposure
+        | says denoise off | not exposure
     ");
 
     a_trace_continues_when_denoising_is_switched: ray().play(r"

@@ -24,10 +24,10 @@ scripts! {
         export 10x                | `10x`: expected a size
         export a.bmp 99999999999  | 99999999999: samples
         export a.bmp fine         | `fine` is neither
-        export cancel             | nothing is running
+        export cancel             | no export is running
         expoort                   | did you mean export?
         put 8x8                   | the commands are
-        size 0x5                  | size takes a size such as 800x600
+        size 0x5                  | :size needs WIDTHxHEIGHT, such as 800x600
         size 99999x99999          | 99999x99999: a picture has at most
     ");
 

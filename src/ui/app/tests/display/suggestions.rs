@@ -81,7 +81,7 @@ scripts! {
     where_no_trial_helps_that_is_said: glaring("falloff square").play(r"
         // Above 1 in three quarters, whatever the exposure: infinitely bright.
         @judged 3: all inf | shown {above} no single render setting fixes that;…
-        <Esc>C             | shown there is no render setting to suggest
+        <Esc>C             | shown no suggestion for this scene
     ");
 
     trials_that_end_early_or_are_outdated_suggest_nothing: judged("scene.ray", SCENE).play(r"
@@ -117,7 +117,7 @@ scripts! {
             PP
             @judged 0: integrator path 1
             C      | text …<render integrator="path"/>… | not wrong
-            <Esc>C | shown there is no render setting to suggest
+            <Esc>C | shown no suggestion for this scene
         "#);
         // What glows is seen, but lights nothing.
         sky.but(

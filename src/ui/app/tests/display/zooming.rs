@@ -56,7 +56,7 @@ scripts! {
         <Space>  | does trace full
         @started full 2
         @frame full 2
-        <Space>  | not does | says …nothing to pause…
+        <Space>  | not does | says the trace is already finished
     ");
 
     /// Scripts wait for pictures; one that is paused would never come.

@@ -223,7 +223,7 @@ scripts! {
     following_is_chosen: ray().play(r"
         :follow saving<Enter>  | does follow buffers saving
         :follow typing<Enter>  | does follow buffers typing
-        :follow<Enter>         | says follow takes typing or saving
+        :follow<Enter>         | says :follow needs typing or saving
         @buffer opened edits unfollowed
         @file 1.5 => 1.7       | text file | says reloaded…
         jjjel                  | dirty | not does wait push 100
