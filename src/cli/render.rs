@@ -61,8 +61,8 @@ pub(super) struct RenderArguments {
     #[command(flatten)]
     sequence: SequenceArguments,
     /// Checkpoint to a part file next to FILE, and continue from one that exists: after SIGTERM,
-    /// SIGHUP, SIGUSR1 or a crash, or with a larger --spp; numbered frames of a sequence are continued with
-    /// or without it, .y4m and .gif cannot be
+    /// SIGHUP, SIGUSR1 or a crash, or with a larger --spp; frames in files of their own always continue,
+    /// .y4m and .gif never
     #[arg(long, conflicts_with = "again")]
     resume: bool,
     /// Show progress as a line on a terminal (auto), as lines of JSON on standard error, or not
@@ -84,7 +84,7 @@ pub(super) struct RenderArguments {
 #[derive(Args, Debug)]
 struct ContentArguments {
     /// Also render these AOVs, separated by commas, as layers of an EXR, such as
-    /// depth,normal,object,albedo,samples; not with --shard, which takes one AOV at a time with --aov
+    /// depth,normal,object,albedo,samples; not with --shard (use --aov for one at a time)
     #[arg(
         long,
         value_name = "AOVS",

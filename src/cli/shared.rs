@@ -14,8 +14,8 @@ use scene::MAX_SPP;
 
 #[derive(Args, Debug)]
 pub(super) struct AssetArguments {
-    /// Also allow pictures and meshes to be read from this folder, not only from the scene's folder
-    /// and, unless it is /, your home or writable by everyone, the folder above it; repeatable
+    /// Also read pictures and meshes from this folder; repeatable. Always allowed are the scene's folder
+    /// and the one above it, unless that is /, your home or writable by everyone
     #[arg(long = "assets", value_name = "DIR")]
     pub(super) folders: Vec<PathBuf>,
 }

@@ -19,16 +19,16 @@ use text::parse_duration;
 pub(super) struct TracingArguments {
     #[command(flatten)]
     samples: SampleArguments,
-    /// Trace only this part of the picture, in pixels from its top left corner; its pixels are those
-    /// of the whole picture, but AOVs on a scale take its ends, and --noise decides, from the part
+    /// Trace only this part of the picture, in pixels from its top left corner: the same pixels as in
+    /// the whole picture, but scaled AOVs and --noise go by the part alone
     #[arg(long, value_name = "X,Y,W,H", allow_hyphen_values = true, value_parser = parse_region)]
     region: Option<Region>,
     /// Samples per pixel, 1 to 65536 [default: the scene's, otherwise 16, or up to 4096 with
     /// --noise; as many as the time permits with --time]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = spp_range())]
     spp: Option<u32>,
-    /// Stop within this time, such as 90s or 5min, with the samples of a whole pass: 1, 2, 4 …
-    /// The picture is the one with that --spp
+    /// Stop within this time, such as 90s or 5min, after a whole pass (1, 2, 4 … samples): the same
+    /// picture as with that --spp
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = parse_time)]
     time: Option<Duration>,
     /// Render a property of the first surface under each pixel, or of the samples of its light,
