@@ -158,7 +158,7 @@ scripts! {
         [object 1] ej1 0 0 0 1 0 0 0 1<Enter> | text 0 0 1  1 0 0  0 1 0 => 1 0 0  0 1 0  0 0 1
         [object 1] ejjjj2 1/2 3<Enter>        | text 1 1 1 => 2 0.5 3
         [object 1] ejjjj2 1/2 3<Enter>u       | text opened
-        [object 1] ejjjjj0.1 0.5 0.1<Enter>   | text opened | refused 3 numbers do not fit: expected 2 for l2 to l3 or 5 for l2 to ka
+        [object 1] ejjjjj0.1 0.5 0.1<Enter>   | text opened | refused 3 numbers do not fit: expected 2 for l2 to height or 5 for l2 to ka
     ");
 
     blanks_before_a_comment_absorb_a_longer_number: {
