@@ -60,7 +60,7 @@ scripts! {
             [object 1] sxx1.125<Enter>           | becomes box 0 0 0 => box -0.0625 0 0 & 1 2 3 => 1.125 2 3
             // cos 60° is written without the rounding errors of binary fractions.
             [object 1] tz60<Enter>
-            | becomes box 0 0 0  1 0 0  0 1 0 => box 1.11603 0.06699 0  0.5 0.866 0  -0.866 0.5 0
+            | becomes box 0 0 0  1 0 0  0 1 0 => box 1.116 0.067 0  0.5 0.866 0  -0.866 0.5 0
         ");
         scene("a.xml", XML).each(r#"
             [object 1] my2<Enter>  | becomes <translate x="1"/> => <translate x="1" y="2"/>
