@@ -385,9 +385,8 @@ pub trait SceneText: Editable + StructureEdits {
     /// in several places, the first.
     fn span(&self, node: Node) -> Span;
 
-    /// The comment on a node: one that follows its text on the line where that begins, otherwise on
-    /// the line where it ends; in `.dat` one that is the line before; in `.xml` one behind the
-    /// start tag or on the line before.
+    /// The comment on a node: behind its text on the line where that begins, otherwise on the line
+    /// where it ends; in `.dat` the line before; in `.xml` behind the start tag or on the line before.
     fn comment(&self, node: Node) -> Option<&str>;
 
     /// The node whose text contains or touches `span`. A view comment inside another node's text
