@@ -25,6 +25,7 @@ fn main() -> ExitCode {
         Ok(Command::Compare(work)) => cli::comparison_exit_code(&batch::compare(&work)),
         Ok(Command::Explain(work)) => cli::exit_code(&batch::explain(&work)),
         Ok(Command::Convert(work)) => cli::exit_code(&batch::convert(&work)),
+        Ok(Command::Samples(work)) => cli::exit_code(&batch::write_samples(&work)),
         Ok(Command::Lsp) => serve(),
         Ok(Command::Doctor(scene)) => print(&Stop {
             text: ui::doctor::examine(scene.as_deref()),

@@ -10,6 +10,7 @@ mod gate;
 mod mesh_scene;
 mod meshes;
 mod pictures;
+mod samples;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
@@ -29,6 +30,7 @@ pub use fingerprint::{FileDigests, fingerprint};
 pub use folder::{NoFolder, check_folders};
 pub use language::xml::Up;
 pub use mesh_scene::{MeshScene, is_mesh, is_own_mesh, is_picture};
+pub use samples::{Carried, SAMPLES, Sample};
 
 /// The limits for all files of a scene in total: 512 MiB of files, 384 MiB of decoded pictures, and
 /// as many triangles as a single mesh may have.

@@ -17,6 +17,7 @@ mod progress;
 mod reading;
 mod render;
 mod report;
+mod samples;
 mod show;
 mod signals;
 mod stats;
@@ -49,6 +50,7 @@ pub use render::{
     Existing, Finished, FrameSource, Parts, PictureWork, Purpose, Render, SequenceOutput,
     SequenceWork, Work, render,
 };
+pub use samples::{Samples, write_samples};
 pub use show::{Show, show};
 pub use signals::Signal;
 pub use tracing::{Execution, Tracing};

@@ -132,6 +132,7 @@ impl InterfaceArguments {
             threads: self.threads.map(usize::from),
             assets: self.assets.folders,
             keymap: Keymap::default(),
+            lesson: None,
             rehearsal: is_headless.then(|| ui::Rehearsal {
                 keys: self.keys,
                 screen: self.screen.unwrap_or(SCREEN),

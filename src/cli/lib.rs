@@ -36,7 +36,7 @@ use shared::ReadingArguments;
 use show::ShowArguments;
 
 use ::render::{CPU_LEVEL_VARIABLE, CPU_LEVELS};
-use batch::{Bench, Check, Compare, Convert, Explain, Merge, Render, Show, Verdict};
+use batch::{Bench, Check, Compare, Convert, Explain, Merge, Render, Samples, Show, Verdict};
 use file::ReadError;
 use shards::Unmerged;
 use text::{alternatives, nearest_word, visible};
@@ -88,6 +88,8 @@ pub enum Command {
     Explain(Explain),
     /// Convert a scene to another language.
     Convert(Convert),
+    /// Write the sample scenes.
+    Samples(Samples),
     /// Report what was detected about the terminal and the machine, for this scene.
     Doctor(Option<PathBuf>),
     /// Report errors and warnings in scenes.
@@ -155,6 +157,21 @@ fn parse_arguments(arguments: impl IntoIterator<Item = OsString>) -> Result<Comm
             scenes,
             reading: reading.into_reading(),
         })),
+        Some(Subcommands::Tutor { lesson }) => {
+            let options = ui::Options {
+                lesson: Some(match lesson {
+                    Some(name) => ui::LessonChoice::Begun(name),
+                    None => ui::LessonChoice::Continued,
+                }),
+                ..ui::Options::default()
+            };
+            Ok(Command::Interface(
+                options,
+                config::Source::Usual,
+                Purpose::Open,
+            ))
+        }
+        Some(Subcommands::Samples { folder }) => Ok(Command::Samples(Samples { folder })),
         Some(Subcommands::Doctor { scene }) => Ok(Command::Doctor(scene)),
         Some(Subcommands::Lsp {
             print_config: None, ..
@@ -322,6 +339,8 @@ Examples:
   halflight render scene.ray -o - --format ppm | ssh far 'cat > scene.ppm'
   halflight check scenes/*.ray                    report errors and warnings
   halflight lsp --print-config helix              set up an editor that shows errors as you type
+  halflight tutor                                 learn the program in three lessons
+  halflight samples scenes                        write the sample scenes into a folder
   halflight doctor                                report what was detected, and why
   halflight scene.ray --keys a.keys --dump-frame a.png    draw the screen after these keys
 
@@ -365,6 +384,12 @@ enum Subcommands {
         #[command(flatten)]
         reading: ReadingArguments,
     },
+    /// Learn the program with your own hands: a lesson beside the picture
+    Tutor {
+        /// The lesson to begin [default: the one that was left last, otherwise edit]
+        #[arg(value_name = "LESSON", value_parser = lessons())]
+        lesson: Option<String>,
+    },
     /// Print the script by which a shell completes words of the command line
     Completions {
         /// The shell
@@ -385,12 +410,23 @@ enum Subcommands {
         #[arg(long = "clientProcessId", value_name = "N")]
         client: Option<u32>,
     },
+    /// Write the sample scenes, with the pictures and meshes that they name, into a folder
+    Samples {
+        /// The folder, which is made if it is missing; files in it are never replaced
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+    },
     /// Report what was detected about the terminal and the machine, and why
     Doctor {
         /// Scene file whose folder to examine [default: the current folder]
         #[arg(value_name = "SCENE")]
         scene: Option<PathBuf>,
     },
+}
+
+/// Parses the name of a lesson.
+fn lessons() -> PossibleValuesParser {
+    PossibleValuesParser::new(ui::lessons())
 }
 
 /// Parses the name of an editor.

@@ -76,6 +76,7 @@ fn options_reach_the_interface() {
             threads: Some(3),
             assets: vec!["b".into(), "c".into()],
             keymap: Keymap::default(),
+            lesson: None,
             rehearsal: None,
         }
     );

@@ -9,7 +9,7 @@ mod tests;
 
 use ratatui::layout::Rect;
 
-use super::layout::{NOTES, ROOMY, raster, split_bottom, split_right};
+use super::layout::{NOTES, ROOMY, raster, split_bottom, split_right, split_top};
 use scene::Size;
 
 /// Share of the screen that the picture takes.
@@ -82,6 +82,8 @@ const SIZE_NAMES: [&str; 4] = ["beside", "below", "list-height", "list-width"];
 /// The area of each panel; empty for a panel that does not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Areas {
+    /// The lesson above all others; empty unless [`Areas::below`] put them there.
+    pub lesson: Rect,
     /// The picture with its margins.
     pub picture: Rect,
     /// The line between columns: of the picture and the panels, or of the list and the fields.
@@ -129,6 +131,29 @@ const LIST: u16 = 4;
 enum Arrangement {
     Beside(u16),
     Below(u16),
+}
+
+/// What is above the picture and the panels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Above {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// A lesson.
+    Lesson,
+}
+
+impl Above {
+    /// Its place, and the screen below it: four lines where the panels keep their room, otherwise two or
+    /// none.
+    pub fn split(self, area: Rect) -> (Rect, Rect) {
+        let lines = match (self, area.height) {
+            (Self::Nothing, _) | (_, 0..12) => 0,
+            (_, 12..20) => 2,
+            _ => 4,
+        };
+        split_top(area, lines)
+    }
 }
 
 /// Divides the screen. All areas lie inside `area` and are disjoint, except for the border; below
@@ -238,6 +263,12 @@ impl Areas {
     pub fn room_for_errors(&self) -> Rect {
         let lines = (self.picture.height / 2).clamp(5, 12);
         split_bottom(self.picture, lines).1
+    }
+
+    /// Puts a lesson above the areas, which were arranged without its lines.
+    #[must_use]
+    pub fn below(self, lesson: Rect) -> Self {
+        Self { lesson, ..self }
     }
 
     /// Gives lines below the picture to the errors.

@@ -63,6 +63,7 @@ use std::env;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
+use app::tutor::{self, Begun};
 use app::{App, Opening, OpeningText, Preferences};
 use arrange::PanelSizes;
 use assets::{check_folders, is_mesh};
@@ -70,7 +71,7 @@ use file::{ReadError, state_folder};
 use keymap::Keymap;
 use language::Language;
 use memory::Need;
-pub use options::{Options, Rehearsal};
+pub use options::{LessonChoice, Options, Rehearsal};
 pub use pixels::Pixels;
 use scene_reading::{Opened, language_of};
 use service::{remembering, scene_loader};
@@ -100,7 +101,14 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
         bytes: NEEDED,
     })?;
     memory::start_threads()?;
-    let (path, language, text) = find_scene(options.scene.as_deref())?;
+    let (begun, complaint) = match &options.lesson {
+        Some(choice) => begun_lesson(choice),
+        None => (None, None),
+    };
+    let (path, language, text) = match &begun {
+        Some(begun) => lesson_scene(begun)?,
+        None => find_scene(options.scene.as_deref())?,
+    };
     check_folders(&options.assets)?;
     let (screen, script) = match &options.rehearsal {
         Some(rehearsal) => (
@@ -110,7 +118,7 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
         None => (terminal_size()?, None),
     };
     let recent = match (&options.scene, &path) {
-        (None, None) if script.is_none() => remembering::list(),
+        (None, None) if script.is_none() && begun.is_none() => remembering::list(),
         _ => Vec::new(),
     };
     let opening = Opening {
@@ -131,8 +139,47 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
         recent,
         terminal: screen,
     };
-    let (app, effects) = App::open(opening);
+    let (mut app, mut effects) = App::open(opening);
+    if let Some(begun) = begun {
+        effects.extend(tutor::begin(&mut app.tutor, &mut app.shared, &begun));
+    }
+    if let Some(complaint) = complaint {
+        app.shared.overlays.suggest(complaint);
+    }
     session::run(options, app, effects, script)
+}
+
+/// The names of the lessons.
+pub fn lessons() -> impl Iterator<Item = &'static str> {
+    tutor::LESSONS.iter().map(|lesson| lesson.name)
+}
+
+/// The lesson that was chosen, and a complaint if that is not where it was left.
+fn begun_lesson(choice: &LessonChoice) -> (Option<Begun>, Option<&'static str>) {
+    const LOST: &str = "Where your lesson was cannot be read: this is the first lesson";
+    let named = match choice {
+        LessonChoice::Begun(name) => tutor::LESSONS.iter().find(|lesson| lesson.name == name),
+        LessonChoice::Continued => None,
+    };
+    if let Some(lesson) = named {
+        return (Some(Begun::at_start(lesson)), None);
+    }
+    let kept = remembering::lesson();
+    let begun = tutor::begun(&kept);
+    let is_lost = begun.is_none() && !kept.is_empty();
+    let begun = begun.or_else(|| tutor::LESSONS.first().map(Begun::at_start));
+    (begun, is_lost.then_some(LOST))
+}
+
+/// The scene of a lesson: its file if it was saved and is still there, otherwise what the program carries.
+fn lesson_scene(begun: &Begun) -> Result<(Option<PathBuf>, Language, OpeningText), Error> {
+    let saved = begun.path.as_deref().filter(|path| path.is_file());
+    if let Some(path) = saved.filter(|path| language_of(path) == Ok(begun.scene().language)) {
+        return find_scene(Some(path));
+    }
+    let scene = begun.scene();
+    let text = OpeningText::Known(scene.text.to_owned());
+    Ok((None, scene.language, text))
 }
 
 /// The size of the terminal. Fails if there is none to draw on.

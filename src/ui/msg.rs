@@ -225,6 +225,8 @@ pub enum Timer {
     Message,
     /// Collects further edits before sending them to an editor's buffer, or limits the wait for its answer.
     Push,
+    /// The time for a step of a lesson before its hint.
+    Lesson,
 }
 
 /// Result of a save.
@@ -314,6 +316,8 @@ pub enum Effect {
     ListRecent,
     /// Keeps the sizes of the panels for other sessions.
     KeepPanels(PanelSizes),
+    /// Keeps where a lesson is for other sessions.
+    KeepLesson(String),
     /// Lists a folder, reported by [`Msg::Listed`].
     ListFolder(PathBuf),
     /// Watches this file from now on, reported by [`Msg::FileChanged`].

@@ -44,8 +44,19 @@ pub struct Options {
     pub assets: Vec<PathBuf>,
     /// What keys do.
     pub keymap: Keymap,
+    /// The lesson to begin or to continue instead of opening a scene.
+    pub lesson: Option<LessonChoice>,
     /// Plays keys on a page in memory instead of reading them from a terminal.
     pub rehearsal: Option<Rehearsal>,
+}
+
+/// A lesson to begin or to continue.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LessonChoice {
+    /// The one that was left last, otherwise the first.
+    Continued,
+    /// The beginning of the one of this name.
+    Begun(String),
 }
 
 /// A session without a terminal, whose keys come from a script.
@@ -79,6 +90,7 @@ impl Options {
             assets: [self.assets, configured.assets].concat(),
             // There are no keys on the command line.
             keymap: configured.keymap,
+            lesson: self.lesson,
             rehearsal: self.rehearsal.or(configured.rehearsal),
         }
     }

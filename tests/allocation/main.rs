@@ -72,6 +72,7 @@ fn child(mut arguments: impl Iterator<Item = OsString>) -> ExitCode {
             | cli::Command::Merge(_)
             | cli::Command::Show(_)
             | cli::Command::Compare(_)
+            | cli::Command::Samples(_)
             | cli::Command::Lsp
             | cli::Command::Doctor(_)),
         ) => {

@@ -54,7 +54,7 @@ fn page(shared: &Shared) -> isize {
         Context::Help => return (help_rows(shared) as isize - 1).max(1),
         Context::Rays => inspect::ray_panels(shared).map_or(areas.list, |panels| panels.lines),
         Context::Errors => areas.errors,
-        Context::History => return history::step_rows(shared),
+        Context::History | Context::Samples => return history::step_rows(shared),
         context if Context::PAGES.contains(&context) => areas.picture,
         _ => areas.list,
     };

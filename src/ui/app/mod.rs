@@ -14,6 +14,7 @@
 //! | [`keys`], [`list`], [`back`] | keys that are the same in many modes; cursors of lists; Esc where no mode binds it |
 //! | [`edit`], [`select`], [`sequence`], [`trace`] | EDIT: values of fields; SELECT: the list and the selected things; SEQUENCE: a track, played and keyed; TRACE: the full-size trace and its region |
 //! | [`exports`], [`history`], [`files`], [`buffer`] | pictures written; undo, redo and their page; the scene's files, and an editor's buffer in place of its own |
+//! | [`samples`], [`tutor`] | the sample scenes as pictures; lessons beside the picture |
 //! | [`compare`], [`camera`], [`transform`], [`inspect`] | COMPARE; VIEW and FLY; MOVE; INSPECT and the rays behind a pixel |
 //! | [`suggesting`], [`text`] | what is wrong with a picture, and the setting that would help; every change of the text |
 //! | [`display`], [`panels`] | what pictures show and ask for; how much of the screen they take |
@@ -43,6 +44,7 @@ mod pasting;
 mod pictures;
 mod refusing;
 mod room;
+pub(crate) mod samples;
 pub(crate) mod select;
 mod sequence;
 mod shared;
@@ -52,6 +54,7 @@ pub(super) mod tests;
 pub(crate) mod text;
 mod trace;
 mod transform;
+pub(crate) mod tutor;
 mod update;
 mod values;
 
@@ -71,10 +74,11 @@ pub use pictures::picture::Picture;
 pub use pictures::solo::Solo;
 pub use pictures::viewport::Viewport;
 pub use pictures::wireframe::ShownWireframe;
+pub use samples::Gallery;
 pub(super) use sequence::DopeSheet;
 pub use sequence::{OpenTrack, Sequence};
 pub use shared::Shared;
-pub use shared::after_leaving::AfterLeaving;
+pub use shared::after_leaving::{AfterLeaving, CarriedScene};
 pub use shared::buffer::Buffer;
 pub use shared::cursor::{Cursor, Names, Stride, Typing};
 pub use shared::disk::{Disk, FirstReading, OnDisk};
@@ -92,4 +96,5 @@ pub use shared::rows::{Fold, Rows};
 pub use shared::suggestions::Suggestions;
 pub use trace::Trace;
 pub use transform::{Moving, Tool, Transform};
+pub use tutor::Tutor;
 pub use values::hsv::Hsv;

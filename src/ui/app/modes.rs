@@ -3,9 +3,9 @@
 
 use super::room::{Room, Row};
 use super::{
-    Compare, Inspect, Moving, Opening, Sequence, Shared, Thumbnails, Tool, Trace, View, camera,
-    compare, display, edit, files, history, inspect, keys, select, sequence, text, trace,
-    transform,
+    Compare, Gallery, Inspect, Moving, Opening, Sequence, Shared, Thumbnails, Tool, Trace, Tutor,
+    View, camera, compare, display, edit, files, history, inspect, keys, samples, select, sequence,
+    text, trace, transform,
 };
 use crate::keymap::{Entry, Key, Keymap, Mode, RowId};
 use crate::msg::Effect;
@@ -124,6 +124,10 @@ modes! {
     view: View, View;
     /// The pictures on the page of the undo history.
     thumbnails: Thumbnails;
+    /// The pictures on the page of the sample scenes.
+    gallery: Gallery;
+    /// The lesson that is taught.
+    tutor: Tutor;
 }
 
 /// All rows of keys, in slices. Their order matters: a key that is not bound where it is pressed is
@@ -135,6 +139,7 @@ const ROWS: &[Rows] = &[
     Rows::View(camera::OF_PAGE),
     Rows::Shared(files::KEYS),
     Rows::Shared(history::KEYS),
+    Rows::Shared(samples::KEYS),
     Rows::Shared(keys::pages::KEYS),
     Rows::Shared(select::KEYS),
     Rows::Move(transform::ENTRIES),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::shared::journal::KEPT_AFTER;
 use super::{
     App, Grid, buffer, command, compare, display, exports, files, history, inspect, pasting,
-    sequence, suggesting, text, trace,
+    samples, sequence, suggesting, text, trace, tutor,
 };
 use crate::history_scene::NoPicture;
 use crate::msg::{Effect, Msg, Target, Timer};
@@ -56,6 +56,9 @@ impl App {
                 return compare::reference_read(compare, shared, id, read);
             }
             Msg::Compared(pair, found) => compare.measured(pair, found),
+            Msg::Derived(ticket, derived) if samples::is_ticket(ticket) => {
+                return samples::derived(&mut self.gallery, ticket, derived);
+            }
             Msg::Derived(ticket, derived) => {
                 return history::derived(thumbnails, shared, ticket, derived);
             }
@@ -100,6 +103,7 @@ impl App {
             }
             Msg::Elapsed(Timer::Keep) => return files::keep_edits(shared).into_iter().collect(),
             Msg::Elapsed(Timer::Push) => return buffer::push(shared),
+            Msg::Elapsed(Timer::Lesson) => tutor::hint(&mut self.tutor),
             Msg::Elapsed(Timer::Writing) => return files::tick(shared),
             Msg::Saved(id, outcome) => return files::was_saved(shared, id, outcome),
             Msg::BackupsFound(copies) => files::backups_found(shared, &copies),
@@ -130,7 +134,10 @@ impl App {
             Target::Preview | Target::Trace => shared.pictures.want(target, Some(generation)),
             Target::Compared | Target::Reference => self.compare.want(target, Some(generation)),
             Target::Trial => shared.suggestions.started(generation),
-            Target::Thumbnail => self.thumbnails.started(generation),
+            Target::Thumbnail => {
+                self.thumbnails.started(generation);
+                self.gallery.pictures.started(generation);
+            }
             Target::Export => {}
         }
     }
@@ -150,7 +157,10 @@ impl App {
                 compare::take_frame(&mut self.compare, shared, target, frame);
             }
             Target::Trial => return suggesting::tried(shared, &frame),
-            Target::Thumbnail => self.thumbnails.take(&frame),
+            Target::Thumbnail => {
+                self.thumbnails.take(&frame);
+                self.gallery.pictures.take(&frame);
+            }
             Target::Export => return exports::export_frame(shared, frame),
         }
         Vec::new()
@@ -164,7 +174,8 @@ impl App {
             Target::Compared | Target::Reference => self.compare.want(target, None),
             Target::Trial => return suggesting::end_trials(shared),
             Target::Thumbnail => {
-                self.thumbnails.fail(NoPicture::Failed(reason));
+                self.thumbnails.fail(NoPicture::Failed(reason.clone()));
+                self.gallery.pictures.fail(NoPicture::Failed(reason));
                 return Vec::new();
             }
             Target::Export => return exports::export_ended(shared, reason),

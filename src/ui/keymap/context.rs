@@ -142,6 +142,8 @@ contexts! {
         Recent, "recent", "the list of recent scenes";
         /// The page of the undo history.
         History, "history", "the undo history";
+        /// The page of the sample scenes.
+        Samples, "samples", "the sample scenes";
         /// The page of the messages so far.
         Messages, "messages", "the messages so far";
         /// The help page.

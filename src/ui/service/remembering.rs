@@ -1,5 +1,5 @@
 //! What sessions remember for later ones, in the state folder: the sizes of panels, in
-//! `halflight/panels`, and recently used scenes, in `halflight/recent`: absolute paths, one a line and
+//! `halflight/panels`, where a lesson is, in `halflight/lesson`, and recently used scenes, in `halflight/recent`: absolute paths, one a line and
 //! the newest first. Sessions that end up there at the same moment may lose one of their entries.
 
 use std::path::{Component, Path, PathBuf};
@@ -13,6 +13,7 @@ use file::state_folder::{self, Folder, Store};
 /// Names of the files.
 const SCENES: &str = "recent";
 const PANELS: &str = "panels";
+const LESSON: &str = "lesson";
 
 /// The maximum number of scenes remembered.
 const MOST: usize = 20;
@@ -28,6 +29,8 @@ pub(crate) enum Request {
     List,
     /// Keep the sizes of the panels.
     Panels(PanelSizes),
+    /// Keep where a lesson is.
+    Lesson(String),
 }
 
 /// Starts the thread. Failures to remember a scene are reported by [`Msg::Failed`], each reason once.
@@ -40,6 +43,11 @@ pub(crate) fn start(send: impl Fn(Msg) + Send + 'static) -> io::Result<Service<R
                 Request::Panels(sizes) => {
                     // The loss is too small to interrupt anyone.
                     let _ = state_folder::path().and_then(|state| keep_in(&state, sizes));
+                }
+                Request::Lesson(place) => {
+                    // As small a loss.
+                    let keep = |state: PathBuf| write(&state, LESSON, &place);
+                    let _ = state_folder::path().and_then(keep);
                 }
                 Request::Note(scene) => {
                     let noted = state_folder::path().and_then(|state| note_in(&state, &scene));
@@ -63,6 +71,11 @@ pub(crate) fn list() -> Vec<PathBuf> {
 /// The sizes of the panels that were kept last; the default ones if that is unknown.
 pub(crate) fn panels() -> PanelSizes {
     state_folder::path().map_or_else(|_| PanelSizes::default(), |state| panels_in(&state))
+}
+
+/// Where a lesson was, as text; empty if that is unknown.
+pub(crate) fn lesson() -> String {
+    state_folder::path().map_or_else(|_| String::new(), |state| text_of(&state, LESSON))
 }
 
 fn panels_in(state: &Path) -> PanelSizes {

@@ -254,6 +254,9 @@ impl Runtime {
             }
             Effect::NoteRecent(scene) => self.recent.request(remembering::Request::Note(scene))?,
             Effect::ListRecent => self.recent.request(remembering::Request::List)?,
+            Effect::KeepLesson(place) => {
+                self.recent.request(remembering::Request::Lesson(place))?;
+            }
             Effect::KeepPanels(sizes) => {
                 self.recent.request(remembering::Request::Panels(sizes))?;
             }

@@ -115,7 +115,7 @@ impl Entry<'_> {
 }
 
 /// Draws a picture, or why there is none.
-fn show(
+pub(super) fn show(
     shared: &Shared,
     known: Option<&Thumbnail>,
     place: Rect,

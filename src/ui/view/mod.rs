@@ -29,11 +29,13 @@ mod picture;
 mod pixel;
 mod rays;
 mod row;
+mod samples;
 mod sequence;
 mod sketch;
 mod status;
 mod symbols;
 mod tiles;
+mod tutor;
 mod values;
 mod wireframe;
 
@@ -85,6 +87,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
     let left = picture::render(app, inks, areas.picture, buffer);
     let left = left.map(|cells| (cells, graphics_gap::left_in(cells, buffer)));
     rule(&app.shared, areas.rule, buffer);
+    tutor::render(app, areas.lesson, buffer);
     if app.shared.context() == Context::Rays {
         rays::render(&app.shared, buffer);
     } else if !areas.list.is_empty() && app.shared.mode == Mode::Compare {
@@ -132,6 +135,7 @@ fn render_page(app: &App, page: &Page, inks: &mut Inks, area: Rect, buffer: &mut
         Context::Help => help::render(&app.shared, page, area, buffer),
         Context::Messages => past_messages::render(&app.shared, page, area, buffer),
         Context::History => history::render(app, page, inks, area, buffer),
+        Context::Samples => samples::render(app, page, inks, area, buffer),
         _ => page::render(app, page, area, buffer),
     }
 }

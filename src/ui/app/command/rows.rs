@@ -11,7 +11,8 @@ use crate::app::pictures::until::Until;
 use crate::app::shared::jobs::Asking;
 use crate::app::text::SettingOrder;
 use crate::app::{
-    Page, camera, compare, display, exports, files, history, panels, select, sequence, text, trace,
+    Page, camera, compare, display, exports, files, history, panels, samples, select, sequence,
+    text, trace, tutor,
 };
 use crate::keymap::{Context, Mode};
 use crate::msg::Effect;
@@ -37,6 +38,8 @@ pub(crate) const ROWS: &[CommandRow] = &[
     CommandRow::new(&["e", "edit", "reread"], File(|file| Run::requests(|shared| files::edit_file(shared, file))), "open FILE, or reload the scene's own"),
     CommandRow::new(&["new"], Said(" [LANGUAGE]", new), "start a new scene: ray, dat or xml"),
     CommandRow::new(&["recent"], Nothing(|| Run::requests(|_| vec![Effect::ListRecent])), "list recently used scenes"),
+    CommandRow::new(&["samples"], Nothing(|| Run::does(samples::list_samples)), "show the sample scenes as pictures").also("examples gallery demo templates"),
+    CommandRow::new(&["tutor"], Said(" [LESSON|skip|off]", tutor), "learn with your own hands: lessons edit, build, understand").also("tutorial lesson learn teach start course howto"),
     CommandRow::new(&["history", "undolist"], Nothing(|| Run::does(history::list_steps)), "show the undo history as pictures").key("history"),
     CommandRow::new(&["export"], FileAnd(PICTURE, |said| export(said, Asking::No)), "export the picture, in SEQUENCE all frames").also("screenshot image save png gif video movie").key("export").runs(OnTrack),
     CommandRow::new(&["export!"], FileAnd(PICTURE, |said| export(said, Asking::Forced)), "export, overwriting an existing file").runs(OnTrack),
@@ -72,6 +75,13 @@ pub(crate) const ROWS: &[CommandRow] = &[
 ];
 
 const PICTURE: &str = " [FILE] [WxH] [SPP]";
+
+fn tutor(said: &str) -> Result<Run, String> {
+    let order = tutor::Order::parse(said)?;
+    Ok(Run::within(move |app| {
+        tutor::obey(&mut app.tutor, &mut app.shared, order)
+    }))
+}
 
 fn new(said: &str) -> Result<Run, String> {
     let language = Language::of_extension(said.trim_start_matches('.'));

@@ -16,7 +16,7 @@ use crate::app::{
     Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Pictures, Shared, Suggestions, display,
     text,
 };
-use crate::arrange::{PanelSizes, Zoom};
+use crate::arrange::{Above, PanelSizes, Zoom};
 use crate::keymap::{Keymap, Mode};
 use crate::msg::Effect;
 use crate::pixels::Pixels;
@@ -125,6 +125,7 @@ pub(crate) fn open(opening: Opening) -> (Shared, Vec<Effect>) {
         kept_panels: opening.preferences.panels,
         resizing: None,
         mouse: opening.mouse,
+        above: Above::default(),
         has_colours: false,
         terminal: opening.terminal,
     };

@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use super::recover::keep_the_rest;
-use super::replacing::{request_scene, start_scene};
+use super::replacing::{request_scene, start_carried, start_scene};
 use super::saving::{end_save, save};
 use crate::app::{AfterLeaving, Buffer, Dialog, OnDisk, Question, Shared, camera, text};
 use crate::keymap::Mode;
@@ -170,6 +170,7 @@ fn leave(shared: &mut Shared, next: AfterLeaving) -> Vec<Effect> {
         }
         AfterLeaving::Open(path) => request_scene(shared, path),
         AfterLeaving::New(language) => start_scene(shared, language),
+        AfterLeaving::Carried(carried) => start_carried(shared, carried),
     }
 }
 
@@ -196,6 +197,7 @@ pub(crate) fn question_before(shared: &Shared, next: &AfterLeaving) -> Question 
         AfterLeaving::Quit => (" Quit ", "Quit?".to_owned()),
         AfterLeaving::Open(path) => (" Open ", format!("Open {}?", path.display())),
         AfterLeaving::New(_) => (" New ", "Start a new scene?".to_owned()),
+        AfterLeaving::Carried(carried) => (" Open ", format!("Open {}?", carried.name)),
     };
     Question {
         title,

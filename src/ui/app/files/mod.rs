@@ -22,7 +22,7 @@ pub(crate) use leaving::{
     quit_anyway, quit_keeping_edits, quit_key, save_and_quit, save_key, save_view_key, was_saved,
 };
 pub(crate) use merging::{adopt, decide, decide_all};
-pub(crate) use other_scene::{edit_file, other_scene_read, start_new};
+pub(crate) use other_scene::{edit_file, open_carried, other_scene_read, start_new};
 pub(crate) use outside::show_in_editor;
 pub(crate) use polling::{polled, polls};
 pub(crate) use reading::{backups_found, catch_up, read_again, read_finally, settled, was_read};

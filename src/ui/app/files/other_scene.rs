@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::leaving::leave_for;
 use super::reading::{read_again, reread};
 use super::replacing::replace_scene;
-use crate::app::{AfterLeaving, FirstReading, OnDisk, Shared};
+use crate::app::{AfterLeaving, CarriedScene, FirstReading, OnDisk, Shared};
 use crate::msg::Effect;
 use crate::scene_reading::{News, Opened, language_of};
 use crate::text_width::file_name;
@@ -18,6 +18,11 @@ use language::Language;
 pub(crate) fn start_new(shared: &mut Shared, language: Option<Language>) -> Vec<Effect> {
     let language = language.unwrap_or_else(|| shared.document.language());
     leave_for(shared, AfterLeaving::New(language))
+}
+
+/// Opens a copy of a scene that the program carries.
+pub(crate) fn open_carried(shared: &mut Shared, carried: CarriedScene) -> Vec<Effect> {
+    leave_for(shared, AfterLeaving::Carried(carried))
 }
 
 /// Opens a file, or reads the scene's own again.

@@ -7,7 +7,7 @@ use super::first_scene::begin;
 use super::reading::watch;
 use crate::app::shared::assets::Assets;
 use crate::app::shared::inspection::Inspection;
-use crate::app::{Cursor, OnDisk, Overlays, Shared, text};
+use crate::app::{CarriedScene, Cursor, OnDisk, Overlays, Shared, text};
 use crate::keymap::Mode;
 use crate::msg::{Effect, Target};
 use crate::scene_reading::language_of;
@@ -35,6 +35,12 @@ pub(super) fn request_scene(shared: &mut Shared, path: PathBuf) -> Vec<Effect> {
 pub(super) fn start_scene(shared: &mut Shared, language: Language) -> Vec<Effect> {
     let document = Document::new(language, language.template().to_owned());
     replace_scene(shared, None, document, OnDisk::New, None)
+}
+
+/// Opens a copy of a scene that the program carries, which has no file until it is saved.
+pub(super) fn start_carried(shared: &mut Shared, carried: CarriedScene) -> Vec<Effect> {
+    let document = Document::new(carried.language, carried.text.to_owned());
+    replace_scene(shared, None, document, OnDisk::Known, None)
 }
 
 /// Replaces the scene, with everything that belongs to it: selection, history, view, pictures

@@ -93,7 +93,7 @@ pub(crate) fn step_rows(shared: &Shared) -> isize {
 }
 
 /// The area above the status line.
-pub(super) fn body(shared: &Shared) -> Rect {
+pub(crate) fn body(shared: &Shared) -> Rect {
     let (columns, lines) = shared.terminal;
     let areas = shared.areas();
     let bars = areas.hint.height + areas.status.height;

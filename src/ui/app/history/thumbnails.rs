@@ -23,9 +23,9 @@ pub enum Rank {
 
 /// A picture that the page shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Slot {
+pub(crate) struct Slot<I = StateId> {
     /// The text.
-    pub(crate) id: StateId,
+    pub(crate) id: I,
     /// What it is for.
     pub(crate) rank: Rank,
     /// Columns and lines that it must fit into.
@@ -35,15 +35,15 @@ pub(crate) struct Slot {
 /// What is known of a picture.
 pub type Thumbnail = Result<CellImage, NoPicture>;
 
-/// The pictures of the history's texts, the last that were needed.
-#[derive(Debug, Default)]
-pub struct Thumbnails {
+/// The pictures of a page's texts, which are told apart by an `I`: the last that were needed.
+#[derive(Debug)]
+pub struct Thumbnails<I = StateId> {
     /// What they depend on besides the texts.
     look: Look,
     /// For each slot its picture; those of newer requests last.
-    kept: VecDeque<(Slot, Thumbnail)>,
+    kept: VecDeque<(Slot<I>, Thumbnail)>,
     /// The picture under way.
-    pending: Option<Pending>,
+    pending: Option<Pending<I>>,
     /// The number of requests so far.
     tickets: u64,
     /// The revision of the text whose history the page lists, and the index of the present text there.
@@ -61,18 +61,37 @@ pub(crate) struct Look {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Pending {
-    slot: Slot,
+struct Pending<I> {
+    slot: Slot<I>,
     ticket: u64,
     /// The renderer's number of the picture, once it is traced.
     generation: Option<u64>,
 }
 
-impl Thumbnails {
+impl<I> Default for Thumbnails<I> {
+    fn default() -> Self {
+        Self::numbered_from(0)
+    }
+}
+
+impl<I> Thumbnails<I> {
+    /// No pictures yet; requests have tickets after this one.
+    pub(crate) fn numbered_from(tickets: u64) -> Self {
+        Self {
+            look: Look::default(),
+            kept: VecDeque::new(),
+            pending: None,
+            tickets,
+            listed: None,
+        }
+    }
+}
+
+impl<I: Copy + PartialEq> Thumbnails<I> {
     /// What is known of a picture; `None` if nothing yet. One of another size will do until it is
     /// traced in its own.
-    pub fn get(&self, id: StateId, rank: Rank) -> Option<&Thumbnail> {
-        let is_it = |(slot, _): &&(Slot, Thumbnail)| (slot.id, slot.rank) == (id, rank);
+    pub fn get(&self, id: I, rank: Rank) -> Option<&Thumbnail> {
+        let is_it = |(slot, _): &&(Slot<I>, Thumbnail)| (slot.id, slot.rank) == (id, rank);
         self.kept.iter().rev().find(is_it).map(|(_, known)| known)
     }
 
@@ -98,13 +117,13 @@ impl Thumbnails {
 
     /// The slot to request next, of those wanted, the most urgent first; `None` while one of them is
     /// under way, or if all are known.
-    pub(crate) fn next(&mut self, wanted: &[Slot]) -> Option<(Slot, u64)> {
-        let is_wanted = |pending: &Pending| wanted.contains(&pending.slot);
+    pub(crate) fn next(&mut self, wanted: &[Slot<I>]) -> Option<(Slot<I>, u64)> {
+        let is_wanted = |pending: &Pending<I>| wanted.contains(&pending.slot);
         if self.pending.as_ref().is_some_and(is_wanted) {
             return None;
         }
         self.pending = None;
-        let is_known = |slot: &Slot| self.kept.iter().any(|(known, _)| known == slot);
+        let is_known = |slot: &Slot<I>| self.kept.iter().any(|(known, _)| known == slot);
         let slot = *wanted.iter().find(|slot| !is_known(slot))?;
         self.tickets += 1;
         self.pending = Some(Pending {
@@ -121,7 +140,7 @@ impl Thumbnails {
     }
 
     /// The slot that a scene was derived for, unless that is no longer wanted.
-    pub(crate) fn asked(&self, ticket: u64) -> Option<Slot> {
+    pub(crate) fn asked(&self, ticket: u64) -> Option<Slot<I>> {
         let pending = self.pending.filter(|pending| pending.ticket == ticket);
         pending.map(|pending| pending.slot)
     }
@@ -135,7 +154,7 @@ impl Thumbnails {
 
     /// Takes a frame of the picture under way.
     pub(crate) fn take(&mut self, frame: &Arc<Frame>) {
-        let is_it = |pending: &Pending| pending.generation == Some(frame.generation);
+        let is_it = |pending: &Pending<I>| pending.generation == Some(frame.generation);
         let Some(pending) = self.pending.filter(is_it) else {
             return;
         };
@@ -158,7 +177,7 @@ impl Thumbnails {
         }
     }
 
-    fn keep(&mut self, slot: Slot, picture: Thumbnail) {
+    fn keep(&mut self, slot: Slot<I>, picture: Thumbnail) {
         self.kept
             .retain(|(known, _)| (known.id, known.rank) != (slot.id, slot.rank));
         self.kept.push_back((slot, picture));
@@ -167,7 +186,7 @@ impl Thumbnails {
             Rank::Row => rows,
             Rank::Large => large,
         };
-        let alike = |(known, _): &(Slot, Thumbnail)| known.rank == slot.rank;
+        let alike = |(known, _): &(Slot<I>, Thumbnail)| known.rank == slot.rank;
         if most < self.kept.iter().filter(|known| alike(known)).count()
             && let Some(oldest) = self.kept.iter().position(alike)
         {

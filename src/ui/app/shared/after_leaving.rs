@@ -5,6 +5,17 @@ use std::path::PathBuf;
 use crate::text_width::file_name;
 use language::Language;
 
+/// A scene that the program carries, to be opened as one without a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CarriedScene {
+    /// What it is called in questions.
+    pub name: &'static str,
+    /// The language of its text.
+    pub language: Language,
+    /// Its text.
+    pub text: &'static str,
+}
+
 /// What follows once the scene is left.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum AfterLeaving {
@@ -14,6 +25,8 @@ pub enum AfterLeaving {
     Open(PathBuf),
     /// A new scene without a file is started.
     New(Language),
+    /// A copy of a scene that the program carries is opened.
+    Carried(CarriedScene),
 }
 
 impl AfterLeaving {
@@ -23,6 +36,7 @@ impl AfterLeaving {
             Self::Quit => "will quit".to_owned(),
             Self::Open(path) => format!("will open {}", file_name(path)),
             Self::New(_) => "will start a new scene".to_owned(),
+            Self::Carried(carried) => format!("will open {}", carried.name),
         }
     }
 }

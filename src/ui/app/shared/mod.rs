@@ -40,7 +40,7 @@ use palette::Palette;
 use suggestions::Suggestions;
 
 use super::pictures::Pictures;
-use crate::arrange::{Areas, PanelSizes, Zoom};
+use crate::arrange::{Above, Areas, PanelSizes, Zoom};
 use crate::keymap::{Keymap, Mode};
 use crate::msg::Polled;
 use crate::pixels::Pixels;
@@ -123,6 +123,8 @@ pub struct Shared {
     pub(crate) resizing: Option<Border>,
     /// Who receives mouse events.
     pub mouse: Mouse,
+    /// What is above the picture and the panels.
+    pub(crate) above: Above,
     /// Whether the terminal shows pictures in colours.
     pub has_colours: bool,
     /// Size of the terminal in cells.

@@ -249,7 +249,8 @@ impl Shared {
 
     /// The layout of an area of the screen.
     pub fn areas_in(&self, area: Rect, zoom: Zoom) -> Areas {
-        let areas = arrange(area, &self.shape(zoom));
+        let (lesson, rest) = self.above.split(area);
+        let areas = arrange(rest, &self.shape(zoom)).below(lesson);
         // The picture is scaled to what the errors leave rather than hidden by them.
         match self.errors_panel(areas.room_for_errors()) {
             Some(panel) => areas.make_room(panel.area.height),

@@ -13,12 +13,14 @@ mod messages;
 mod palette;
 mod panels;
 mod rebinding;
+mod samples;
 mod scripts;
 mod select;
 mod sequence;
 mod text;
 mod timeline;
 mod transforming;
+mod tutor;
 mod views;
 mod xml;
 

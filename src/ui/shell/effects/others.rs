@@ -30,6 +30,7 @@ pub(super) fn reaches_others(effect: &Effect) -> bool {
             | Effect::NoteRecent(_)
             | Effect::ListRecent
             | Effect::KeepPanels(_)
+            | Effect::KeepLesson(_)
             | Effect::ReadReference(_, ReferenceSource::Revision(..))
     )
 }

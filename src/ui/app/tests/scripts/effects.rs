@@ -38,6 +38,7 @@ pub(super) fn called(effect: &Effect) -> String {
         Effect::NoteRecent(path) => of("note", path),
         Effect::ListRecent => "list recent".to_owned(),
         Effect::KeepPanels(_) => "keep panels".to_owned(),
+        Effect::KeepLesson(place) => format!("keep {}", place.trim_end().replace('\n', "; ")),
         Effect::ListFolder(path) => of("list", path),
         Effect::Watch(path) => of("watch", path),
         Effect::ReadAssets(wanted) => {
@@ -124,7 +125,7 @@ const TARGETS: [(&str, Target); 7] = [
     ("trial", Target::Trial),
 ];
 
-const TIMERS: [Timer; 8] = [
+const TIMERS: [Timer; 9] = [
     Timer::Settled,
     Timer::Interrupt,
     Timer::Click,
@@ -133,6 +134,7 @@ const TIMERS: [Timer; 8] = [
     Timer::Frame,
     Timer::Message,
     Timer::Push,
+    Timer::Lesson,
 ];
 
 /// The name of a picture.

@@ -6,7 +6,7 @@
 //! `@asked TEXT` is the one that the last step asks for. Answers of effects name the one
 //! they answer by its number, unless it is the newest: `@saved`, `@refused`, `@exported`,
 //! `@taken`, `@kept`, `@explained`. `@field` goes to a field by its name, and `@note a name`
-//! remembers what is seen as a text. `@frame` delivers a complete picture, `@traced` one that can
+//! remembers what is seen as a text. `@frame` delivers a complete picture, `@rendered` one as it is, `@traced` one that can
 //! be asked about its pixels, `@light` a preview of a single grey, `@judged` one with the trials of
 //! what would help, and `@shows` one of one object, which is on screen. `@thumbnails` delivers all
 //! that the page of the history asks for, and `@derived` the scene that it asked for last.
@@ -168,6 +168,7 @@ impl Session {
             "reference" => self.reference(&format!("{first} {rest}"))?,
             "frame" => self.frame(target()?, rest)?,
             "traced" => self.traced(target()?, rest)?,
+            "rendered" => self.rendered(target()?)?,
             "light" => self.light(first)?,
             "trial" => self.trial(first)?,
             "down" | "drag" | "up" | "wheel" => self.mouse(name, first, rest)?,

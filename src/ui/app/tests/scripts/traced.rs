@@ -1,11 +1,12 @@
 //! Pictures that are traced, judged and listed in scripts.
 
 use std::collections::VecDeque;
+use std::sync::mpsc;
 
 use super::steps::number;
 use super::*;
 use crate::history_scene::{HistoryScene, HistoryText, NoPicture};
-use render::{Aov, Frame, NO_OBJECT, PreparedScene, Query};
+use render::{Aov, Frame, NO_OBJECT, PreparedScene, Query, Renderer, Threads};
 
 impl Session {
     /// A complete frame of what is traced, of this many samples, with the objects that are seen in it.
@@ -26,6 +27,26 @@ impl Session {
         self.under_way.prepared.push(prepared);
         self.update(Msg::Started(target, frame.generation));
         Ok(Msg::Frame(target, Arc::new(frame)))
+    }
+
+    /// A complete frame of what is traced, as a renderer makes it.
+    pub(super) fn rendered(&mut self, target: Target) -> Result<Msg, String> {
+        let (wake, woken) = mpsc::channel();
+        let mut renderer = Renderer::new(Threads::Exactly(1), move || {
+            // This fails only once the frame is there.
+            let _ = wake.send(());
+        });
+        let begun = renderer.restart(self.job(target)?.clone());
+        begun.map_err(|refused| refused.to_string())?;
+        let generation = self.under_way.jobs.len() as u64 + 100;
+        self.update(Msg::Started(target, generation));
+        loop {
+            woken.recv().map_err(|ended| ended.to_string())?;
+            if let Some(mut frame) = renderer.latest().filter(|frame| frame.progress.complete) {
+                Arc::make_mut(&mut frame).generation = generation;
+                return Ok(Msg::Frame(target, frame));
+            }
+        }
     }
 
     /// The preview, of a single grey.

@@ -1,7 +1,7 @@
 //! What can be seen by a name. What is absent, and `false`, reads as an empty text.
 
 use super::*;
-use crate::app::{command, compare, display, files, history, inspect, select};
+use crate::app::{command, compare, display, files, history, inspect, select, tutor};
 use crate::keymap::Context;
 use crate::listing::ListLine;
 use document::StepName;
@@ -266,7 +266,11 @@ fn work(app: &App, name: &str) -> Option<String> {
     let export = shared.jobs.export();
     let track = app.sequence.open.as_ref();
     let writing = shared.jobs.still_writing();
+    let taught = tutor::shown(&app.tutor, shared);
     Some(match name {
+        "lesson" => taught.map(|taught| taught.title).words(),
+        "task" => taught.map(|taught| taught.words).words(),
+        "hint" => taught.and_then(|taught| taught.hint).words(),
         "disk" => {
             let state = format!("{:?}", shared.disk.state).to_lowercase();
             state.split('(').next().map(str::to_owned).words()
@@ -312,6 +316,7 @@ fn question(app: &App) -> String {
         Some(Dialog::Leave(AfterLeaving::Quit)) => "quit".to_owned(),
         Some(Dialog::Leave(AfterLeaving::Open(path))) => format!("open {}", path.display()),
         Some(Dialog::Leave(AfterLeaving::New(_))) => "new".to_owned(),
+        Some(Dialog::Leave(AfterLeaving::Carried(carried))) => format!("open {}", carried.name),
         Some(Dialog::Conflict { merge, .. }) => {
             let each = merge.conflicts.iter().map(|conflict| {
                 let [base, mine, theirs] =
