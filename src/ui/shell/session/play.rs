@@ -37,6 +37,7 @@ impl Session {
             pictures.are_awaited()
                 || self.app.compare.is_awaited()
                 || self.app.thumbnails.are_awaited()
+                || self.app.gallery.pictures.are_awaited()
                 || self.app.shared.suggestions.are_awaited()
                 || self.app.shared.jobs.export().is_some()
         } else {

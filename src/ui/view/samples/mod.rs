@@ -11,15 +11,16 @@ use super::row::Row;
 use crate::app::{App, Page, Rank, history, samples};
 use crate::text_width::wrap;
 use crate::theme;
-
-/// What is not on the page, and how to have it.
-const REST: &str = " with pictures and meshes: halflight samples DIR ";
+use assets::SAMPLES;
 
 /// Draws the page.
 pub(super) fn render(app: &App, page: &Page, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let shared = &app.shared;
     let area = area.intersection(buffer.area);
-    page::frame(page.title, REST, area, buffer);
+    // They need the files that they name beside them.
+    let others = SAMPLES.len() - samples::shown_samples().count();
+    let others = format!(" {others} more with pictures and meshes: halflight samples DIR ");
+    page::frame(page.title, &others, area, buffer);
     let strip = history::history_layout(shared, area);
     let pictures = &app.gallery.pictures;
     let rows = page.shown();
