@@ -43,6 +43,7 @@ pub mod history_scene;
 pub mod keymap;
 pub mod layout;
 pub mod listing;
+mod matching;
 pub mod msg;
 mod options;
 mod pixels;

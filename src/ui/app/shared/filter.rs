@@ -5,11 +5,12 @@ use tui_input::Input;
 
 use super::cursor::moved;
 use super::line;
+use crate::matching::{self, Likeness, Searched};
 
 /// A typed text that filters the rows of a list, and the cursor among the rows that it leaves.
 #[derive(Debug, Default)]
 pub struct Filter {
-    /// Only rows that contain this text are shown.
+    /// Only rows that answer this text are shown.
     pub input: Input,
     /// The place of the cursor among the rows shown.
     pub at: usize,
@@ -32,20 +33,25 @@ impl Filter {
         self.input.value().trim().to_lowercase()
     }
 
-    /// The indices of the rows shown, given the name and the description of each: those whose name
-    /// begins with the typed text first, then those whose name contains it.
-    pub(crate) fn shown<'r>(&self, rows: impl Iterator<Item = (&'r str, &'r str)>) -> Vec<usize> {
-        let typed = self.typed();
-        let rank = |(name, words): (&str, &str)| match name.to_lowercase().find(&typed) {
-            Some(0) => Some(0),
-            Some(_) => Some(1),
-            None => words.to_lowercase().contains(&typed).then_some(2),
-        };
-        let ranked = rows.enumerate();
-        let ranked = ranked.filter_map(|(index, row)| Some((rank(row)?, index)));
-        let mut ranked: Vec<(u8, usize)> = ranked.collect();
-        ranked.sort_unstable();
-        ranked.into_iter().map(|(_, index)| index).collect()
+    /// The indices of the rows shown, given the name and the description of each: the best answers to the
+    /// typed text first, each with whether it is only a guess at what that means.
+    pub(crate) fn shown<'r>(
+        &self,
+        rows: impl Iterator<Item = (&'r str, &'r str)>,
+    ) -> Vec<(usize, bool)> {
+        let rows = rows.enumerate().map(|(index, (name, words))| {
+            let row = Searched {
+                name,
+                words,
+                ..Searched::default()
+            };
+            (row, index)
+        });
+        let ranked = matching::ranked(rows, self.input.value()).into_iter();
+        // What begins otherwise is hardly meant, and would be chosen.
+        let ranked = ranked.filter(|&(likeness, _)| likeness < Likeness::MisspeltStart);
+        let shown = ranked.map(|(likeness, index)| (index, likeness.is_guess()));
+        shown.collect()
     }
 
     /// Handles a key other than those that end the list, of which `count` rows are shown: arrows,
@@ -102,13 +108,16 @@ mod tests {
             ("", vec![0, 1, 2, 3]),
             (" SPH", vec![1, 3, 2]),
             ("ell", vec![2]),
+            ("elipsoid", vec![2]),
             ("cone", vec![]),
         ] {
             let filter = Filter {
                 input: Input::from(typed),
                 ..Filter::default()
             };
-            assert_eq!(filter.shown(rows.into_iter()), shown, "{typed}");
+            let found = filter.shown(rows.into_iter()).into_iter();
+            let found: Vec<_> = found.map(|(index, _)| index).collect();
+            assert_eq!(found, shown, "{typed}");
         }
     }
 

@@ -67,12 +67,14 @@ impl Menu {
         }
     }
 
-    /// The entries that contain the typed text, those that begin with it first.
+    /// The entries that answer the typed text, the best first. What may be a new name is not taken for
+    /// another one misspelt.
     pub fn shown(&self) -> Vec<&Entry> {
         let texts = self.entries.iter();
         let texts = texts.map(|entry| (entry.name.as_str(), entry.words.as_str()));
         let shown = self.filter.shown(texts).into_iter();
-        let shown = shown.filter_map(|index| self.entries.get(index));
+        let shown = shown.filter(|&(_, is_guess)| self.offer.is_none() || !is_guess);
+        let shown = shown.filter_map(|(index, _)| self.entries.get(index));
         shown.chain(&self.offer).collect()
     }
 

@@ -64,7 +64,7 @@ impl Page {
     pub fn shown(&self) -> Vec<(usize, &str)> {
         let all = self.rows.iter().map(|row| (row.as_str(), ""));
         let shown = self.filter.shown(all).into_iter();
-        let row = |index: usize| Some((index, self.rows.get(index)?.as_str()));
+        let row = |(index, _): (usize, bool)| Some((index, self.rows.get(index)?.as_str()));
         shown.filter_map(row).collect()
     }
 

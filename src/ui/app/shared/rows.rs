@@ -3,7 +3,11 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::listing::Listing;
+use crate::matching::{self, Searched};
 use language::{Node, Source};
+
+/// The most rows among which misspelt words are looked for: so many take no time between two keys.
+const GUESSED: usize = 5000;
 
 /// Which groups are folded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,17 +111,18 @@ impl Rows {
         if words == self.filter {
             return self.matches.clone();
         }
-        source.rows_called(words, None)
+        rows_called(source, words, None)
     }
 
-    /// Shows only nodes whose name or comment contains these words.
+    /// Shows only nodes whose name or comment contains these words; if there is none, those that they may
+    /// mean.
     pub(crate) fn filter_by(&mut self, words: &str, source: &Source) {
         let words = words.to_lowercase();
         let narrows = !self.filter.is_empty() && words.contains(&self.filter);
         self.matches = if words.is_empty() {
             Vec::new()
         } else {
-            source.rows_called(&words, narrows.then_some(&self.matches))
+            rows_called(source, &words, narrows.then_some(&self.matches))
         };
         self.filter = words;
         self.show(source);
@@ -147,7 +152,7 @@ impl Rows {
             self.folded = foldable(source).into_iter().filter_map(found).collect();
         }
         if !self.filter.is_empty() {
-            self.matches = source.rows_called(&self.filter, None);
+            self.matches = rows_called(source, &self.filter, None);
         }
         self.show(source);
     }
@@ -165,6 +170,33 @@ impl Rows {
             None
         };
     }
+}
+
+/// The rows whose name or comment contains these words, ascending; if there is none in a list that is not
+/// huge, those that the words may mean.
+fn rows_called(source: &Source, words: &str, among: Option<&[usize]>) -> Vec<usize> {
+    let found = source.rows_called(words, among);
+    let nodes = source.nodes();
+    if !found.is_empty() || GUESSED < nodes.len() {
+        return found;
+    }
+    let names = (0..nodes.len()).filter_map(|row| {
+        let node = nodes.get(row)?;
+        Some((row, source.name(node), source.comment(node).unwrap_or("")))
+    });
+    let names: Vec<_> = names.collect();
+    let texts = names.iter().map(|(row, name, words)| {
+        let text = Searched {
+            name,
+            words,
+            ..Searched::default()
+        };
+        (text, *row)
+    });
+    let meant = matching::ranked(texts, words).into_iter();
+    let mut meant: Vec<_> = meant.map(|(_, row)| row).collect();
+    meant.sort_unstable();
+    meant
 }
 
 /// The objects that can be folded, each with its name and a number that tells it from those of the
