@@ -153,16 +153,15 @@ fn answer_unknown(shared: &mut Shared, context: Context, key: KeyEvent) {
         shared.warn_of_transform();
         return;
     }
-    let words = match (shared.keymap.elsewhere(context, key), context) {
-        (Some((mode, way, words)), _) => {
+    let words = match shared.keymap.elsewhere(context, key) {
+        Some((mode, way, words)) => {
             let way = way.map_or_else(String::new, |way| format!(" ({way})"));
-            format!("`{name}` in {}{way}: {words}", mode.name())
+            format!("{name} in {}{way}: {words}", mode.name())
         }
-        (None, Context::In(mode)) => format!("`{name}` is not bound in {}", mode.name()),
-        (None, _) => format!("`{name}` is not bound here"),
+        None => format!("{name} is not bound here"),
     };
     let help = match shared.keymap.key(context, "help") {
-        Some(key) if context != Context::Help => format!("; {key} for keys"),
+        Some(key) if context != Context::Help => format!(" ({key} for keys)"),
         _ => String::new(),
     };
     shared.overlays.answer(format!("{words}{help}"));

@@ -61,10 +61,10 @@ fn page(shared: &Shared) -> isize {
     (layout::contents(panel).height as isize - 1).max(1)
 }
 
-/// The lines of the help page, inside its frame and above its search.
+/// The lines of the help page inside its frame.
 pub(crate) fn help_rows(shared: &Shared) -> usize {
     let areas = shared.areas();
-    let outside = areas.hint.height + areas.status.height + 3;
+    let outside = areas.hint.height + areas.status.height + 2;
     usize::from(shared.terminal.1.saturating_sub(outside))
 }
 

@@ -108,6 +108,11 @@ impl Keymap {
         rows.find(|row| row.key.name == name).map(|row| row.id)
     }
 
+    /// The name of what a row does.
+    pub fn name_of(&self, id: RowId) -> &'static str {
+        self.rows[id.0].key.name
+    }
+
     /// Whether a row is active in all contexts, and does the same in each.
     pub fn is_reserved(&self, id: RowId) -> bool {
         self.rows[id.0].key.scope == Scope::Always

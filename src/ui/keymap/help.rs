@@ -1,7 +1,9 @@
 //! The key bindings as text: the help page and the line of hints.
 
-use super::bindings::{Keymap, Row, RowId, names};
+use super::bindings::{Keymap, RowId};
+use super::chord::Keys;
 use super::context::{Context, Mode};
+use super::joined::Joined;
 use super::key::Hint;
 use super::section::Section;
 use super::typed_line::{Line, line_hints};
@@ -9,18 +11,27 @@ use super::typed_line::{Line, line_hints};
 /// The rank of keys without a hint, where all are shown.
 const UNHINTED: u8 = 50;
 
-/// One line of help.
+/// The rank of keys whose hints are never omitted, among those of a mode.
+const LASTING: u8 = 200;
+
+/// A part of the help.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum HelpLine {
-    /// Context of the lines below: `SELECT`, `anywhere`.
-    Heading(&'static str),
-    /// An input and its effect.
-    Entry {
-        /// The keys or other input: `j ↓`.
-        keys: String,
-        /// Description of the effect.
-        words: &'static str,
-    },
+pub struct Topic {
+    /// What it is about: `SELECT`, `anywhere`.
+    pub heading: &'static str,
+    /// Its lines, the most useful first.
+    pub entries: Vec<HelpEntry>,
+}
+
+/// An input and its effect, or a term and what it means.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct HelpEntry {
+    /// The keys or other input: `j ↓`.
+    pub keys: String,
+    /// Description of the effect.
+    pub words: String,
+    /// Everyday words that find it too.
+    pub synonyms: String,
 }
 
 /// Command line arguments.
@@ -50,36 +61,64 @@ const MOUSE: [(&str, &str); 15] = [
 /// An input and its description.
 pub type Entry = (String, &'static str);
 
-/// The same, and everyday words that find it too.
-pub(super) type SearchedEntry = (String, &'static str, &'static str);
+impl HelpEntry {
+    /// An entry that only its own words find.
+    pub fn new(keys: &str, words: &str) -> Self {
+        Self {
+            keys: keys.to_owned(),
+            words: words.to_owned(),
+            synonyms: String::new(),
+        }
+    }
+}
 
 impl Keymap {
-    /// Returns the help for someone in `mode`, whose keys come first: sections of lines whose keys,
-    /// description, synonyms or heading contain `search`, ignoring case.
-    pub fn help(&self, search: &str, mode: Mode, commands: Vec<SearchedEntry>) -> Vec<HelpLine> {
-        let search = search.to_lowercase();
-        let mut lines = Vec::new();
-        let mut add = |heading: &'static str, entries: Vec<SearchedEntry>| {
-            let all = holds(heading, &search);
-            let is_found = |(keys, words, synonyms): &SearchedEntry| {
-                all || [keys, *words, *synonyms]
-                    .iter()
-                    .any(|text| holds(text, &search))
-            };
-            let found = entries.into_iter().filter(is_found);
-            let start = lines.len();
-            lines.extend(found.map(|(keys, words, _)| HelpLine::Entry { keys, words }));
-            if start < lines.len() {
-                lines.insert(start, HelpLine::Heading(heading));
-            }
-        };
+    /// The keys that a mode has, in order of use: those with hints, then its own, then those that others
+    /// have too. Of each row the first key, and one line for keys that differ in their direction.
+    pub fn card(&self, mode: Mode) -> Vec<HelpEntry> {
         let here = Context::In(mode);
-        add(here.heading(), self.entries(Section::In(here)));
-        add("anywhere", self.entries(Section::Anywhere));
-        for other in Context::all().filter(|context| *context != here) {
-            add(other.heading(), self.entries(Section::In(other)));
+        let acting = self.rows_in(here).filter_map(|row| {
+            let keys: Vec<_> = self.keys_of(row, here).take(2).collect();
+            let hint = row.key.hint_of(here);
+            (!keys.is_empty()).then_some((row, hint, keys))
+        });
+        let mut acting: Vec<_> = acting.collect();
+        acting.sort_by_key(|(row, hint, _)| match hint {
+            Some(hint) => (hint.rank, false),
+            None if row.key.lasting.is_some() => (LASTING, false),
+            None => (u8::MAX, !row.key.is_alone()),
+        });
+        let mut joined: Vec<Joined> = Vec::new();
+        for (row, hint, keys) in acting {
+            let hint = hint.map(|hint| hint.words);
+            if let Some(last) = joined.last_mut()
+                && last.takes(row, hint)
+            {
+                last.add(&row.key, keys.into_iter().take(1));
+            } else {
+                joined.push(Joined::new(&row.key, keys.into_iter(), hint));
+            }
         }
-        let owned = |(keys, words): &(&str, &'static str)| ((*keys).to_owned(), *words, "");
+        joined.into_iter().map(Joined::short).collect()
+    }
+
+    /// Everything that keys and typed lines do, by what has them; what `mode` has comes first, and what
+    /// several have is listed once.
+    pub fn topics(&self, mode: Mode) -> Vec<Topic> {
+        let here = Context::In(mode);
+        let mut topics = Vec::new();
+        let mut listed = Vec::new();
+        let others = Context::all().filter(|context| *context != here);
+        let sections = [Section::In(here), Section::Anywhere].into_iter();
+        for section in sections.chain(others.map(Section::In)) {
+            let heading = match section {
+                Section::In(context) => context.heading(),
+                Section::Anywhere => "anywhere",
+            };
+            let entries = self.entries(section, &mut listed);
+            topics.push(Topic { heading, entries });
+        }
+        let owned = |(keys, words): &(&str, &str)| HelpEntry::new(keys, words);
         for (heading, line) in [
             ("while a value is typed", Line::Value),
             ("in a menu, where typing filters", Line::Menu),
@@ -87,12 +126,15 @@ impl Keymap {
             ("while the list is filtered", Line::List),
             ("after /", Line::Search),
         ] {
-            add(heading, line_hints(line).iter().map(owned).collect());
+            let entries = line_hints(line).iter().map(owned).collect();
+            topics.push(Topic { heading, entries });
         }
-        add("commands", commands);
-        add("mouse", MOUSE.iter().map(owned).collect());
-        add("command line", START.iter().map(owned).collect());
-        lines
+        for (heading, lines) in [("mouse", &MOUSE[..]), ("command line", &START)] {
+            let entries = lines.iter().map(owned).collect();
+            topics.push(Topic { heading, entries });
+        }
+        topics.retain(|topic| !topic.entries.is_empty());
+        topics
     }
 
     /// Returns the hints that are never omitted in a context: how to get help, to give a command,
@@ -129,105 +171,85 @@ impl Keymap {
         entries
     }
 
-    /// The rows of a section that have keys.
-    fn entries(&self, section: Section) -> Vec<SearchedEntry> {
-        let rows = self.rows.iter().filter(|row| section.lists(row));
-        let bound = rows.filter(|row| !row.keys_of(section).is_empty());
-        let entry = |row: &Row| {
-            let keys = names(row.keys_of(section));
-            (keys, row.key.words, row.key.synonyms)
-        };
-        bound.map(entry).collect()
-    }
-}
-
-/// Distributes sections of help over columns of about the same height, each section in one column
-/// and the first at the top of the first column.
-pub fn in_columns(lines: Vec<HelpLine>, count: usize) -> Vec<Vec<HelpLine>> {
-    let mut columns = vec![Vec::new(); count.max(1)];
-    let mut sections: Vec<Vec<HelpLine>> = Vec::new();
-    for line in lines {
-        match (&line, sections.last_mut()) {
-            (HelpLine::Entry { .. }, Some(section)) => section.push(line),
-            _ => sections.push(vec![line]),
+    /// The rows of a section that have keys and are not listed with the same ones elsewhere.
+    fn entries(&self, section: Section, listed: &mut Vec<(RowId, Vec<Keys>)>) -> Vec<HelpEntry> {
+        let mut joined: Vec<Joined> = Vec::new();
+        for row in self.rows.iter().filter(|row| section.lists(row)) {
+            let keys = row.keys_of(section);
+            let known = (row.id, keys.to_vec());
+            if keys.is_empty() || listed.contains(&known) {
+                continue;
+            }
+            listed.push(known);
+            match joined.last_mut() {
+                Some(last) if last.takes(row, None) => last.add(&row.key, keys.iter()),
+                _ => joined.push(Joined::new(&row.key, keys.iter(), None)),
+            }
         }
+        joined.into_iter().map(Joined::whole).collect()
     }
-    for section in sections {
-        if let Some(shortest) = columns.iter_mut().min_by_key(|column| column.len()) {
-            shortest.extend(section);
-        }
-    }
-    columns
-}
-
-fn holds(text: &str, lower_case: &str) -> bool {
-    text.to_lowercase().contains(lower_case)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn lines(search: &str, mode: Mode) -> Vec<HelpLine> {
-        let commands = vec![(":export [WxH]".to_owned(), "write", "screenshot")];
-        Keymap::default().help(search, mode, commands)
-    }
-
-    fn headings(lines: &[HelpLine]) -> Vec<&'static str> {
-        let heading = |line: &HelpLine| match line {
-            HelpLine::Heading(heading) => Some(*heading),
-            HelpLine::Entry { .. } => None,
-        };
-        lines.iter().filter_map(heading).collect()
-    }
-
-    fn entry(keys: &str, words: &'static str) -> HelpLine {
-        let keys = keys.to_owned();
-        HelpLine::Entry { keys, words }
-    }
-
     #[test]
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
-        let lines = lines("", Mode::View);
-        assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        for context in Context::all() {
-            let mut found = headings(&lines);
-            found.retain(|heading| *heading == context.heading());
-            assert_eq!(found.len(), 1, "{context:?}");
-        }
-        assert!(lines.contains(&entry("gg", "first")));
+        let topics = Keymap::default().topics(Mode::View);
+        let headings: Vec<_> = topics.iter().map(|topic| topic.heading).collect();
+        assert_eq!(headings[..3], ["VIEW", "anywhere", "SELECT"]);
+        let entries = topics.iter().flat_map(|topic| &topic.entries);
+        let shown: Vec<_> = entries.flat_map(|entry| each(&entry.keys)).collect();
         for row in Keymap::default().rows {
-            let entry = entry(&names(&row.keys), row.key.words);
-            assert!(lines.contains(&entry), "{row:?}");
-        }
-    }
-
-    #[test]
-    fn columns_hold_whole_sections_and_all_of_them() {
-        let all = lines("", Mode::Edit);
-        for count in [0, 1, 2, 3, 40] {
-            let columns = in_columns(all.clone(), count);
-            assert_eq!(columns.len(), count.max(1));
-            assert_eq!(columns[0][0], HelpLine::Heading("EDIT"));
-            assert_eq!(columns.concat().len(), all.len());
-            for start in columns.iter().filter_map(|column| column.first()) {
-                assert!(matches!(start, HelpLine::Heading(_)), "{start:?}");
+            for keys in &row.keys {
+                assert!(shown.contains(&keys.name()), "{row:?}");
             }
         }
-        assert_eq!(in_columns(all.clone(), 1), [all]);
+    }
+
+    /// The single keys of `h/j Shift-←/↓`.
+    fn each(keys: &str) -> Vec<String> {
+        let one = |keys: &str| -> Vec<String> {
+            let held = keys.rfind('-').filter(|&at| 0 < at).map_or(0, |at| at + 1);
+            let (held, rest) = if keys.contains("-/") || keys.ends_with('/') {
+                ("", keys)
+            } else {
+                keys.split_at(held)
+            };
+            let mut all: Vec<_> = rest.split('/').map(|key| format!("{held}{key}")).collect();
+            all.push(keys.to_owned());
+            all
+        };
+        keys.split(' ').flat_map(one).collect()
     }
 
     #[test]
-    fn search_matches_any_part_of_a_line() {
-        let redraw = lines("REDRAW", Mode::Select);
-        let expected = entry("Ctrl-L", "redraw the screen");
-        assert_eq!(redraw, [HelpLine::Heading("anywhere"), expected]);
-        assert!(lines("ctrl-r", Mode::Select).contains(&entry("Ctrl-R", "redo")));
-        assert_eq!(headings(&lines("mouse", Mode::Edit)), ["mouse"]);
-        assert_eq!(headings(&lines("[wxh]", Mode::Edit)), ["commands"]);
-        let export = entry(":export [WxH]", "write");
-        assert!(lines("screenshot", Mode::Select).contains(&export));
-        assert!(lines("no such words", Mode::Select).is_empty());
+    fn what_several_modes_have_is_listed_once() {
+        for mode in Mode::ALL {
+            let topics = Keymap::default().topics(mode);
+            let entries = topics.iter().flat_map(|topic| &topic.entries);
+            let found = entries.filter(|entry| entry.words == "show a wireframe, for slow links");
+            assert_eq!(found.count(), 1, "{mode:?}");
+        }
+    }
+
+    #[test]
+    fn the_card_of_a_mode_begins_with_what_is_hinted() {
+        for (mode, first) in [
+            (Mode::Select, ["j/k", "Enter e", "a"]),
+            (Mode::View, ["h/j/k/l", "+/-", "f"]),
+            (Mode::Trace, ["+/-", "h/j/k/l", "z"]),
+            (Mode::Move, ["h/j/k/l", "x/y/z", "Enter"]),
+        ] {
+            let card = Keymap::default().card(mode);
+            let keys: Vec<_> = card.iter().map(|entry| entry.keys.as_str()).collect();
+            assert_eq!(keys[..3], first, "{mode:?}");
+            let words: Vec<_> = card.iter().map(|entry| entry.words.as_str()).collect();
+            for (at, word) in words.iter().enumerate() {
+                assert!(!words[..at].contains(word), "{mode:?} {word}");
+            }
+        }
     }
 
     #[test]

@@ -84,7 +84,8 @@ mod tests {
         show(&mut app, frame(8, 6), &frame_window);
         let cells = app.shared.raster().map(|(cells, _)| cells);
         assert_eq!(left(&mut app), (cells, false));
-        app.shared.overlays.open_page(Page::reading(Context::Help));
+        let page = Page::of(Context::Recent, "Recent scenes", vec!["a.ray".to_owned()]);
+        app.shared.overlays.open_page(page);
         assert_eq!(left(&mut app), (None, true));
         app.shared.overlays.page = None;
         assert_eq!(left(&mut app), (cells, false));

@@ -6,12 +6,14 @@ use std::path::{Path, PathBuf};
 use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
+use super::help::nothing_for;
 use super::row::CommandRow;
 use super::rows::ROWS;
 use super::running;
 use crate::app::shared::line;
 use crate::app::{App, Completion, Palette, PromptKind, Shared};
-use crate::keymap::{Mode, RowId};
+use crate::keymap::{Mode, NamedAction, RowId};
+use crate::matching::{self, Likeness, Searched};
 use crate::msg::Effect;
 use image_file::ImageFormat;
 use language::Language;
@@ -32,7 +34,11 @@ impl App {
         let found = completions(&self.shared);
         let chosen = self.shared.palette.chosen;
         let is_typed = chosen.is_none() && !line.trim().is_empty();
-        if is_typed && 1 < found.len() && !running::begins_command(line) {
+        let is_begun = running::begins_command(line);
+        let is_found = found
+            .first()
+            .is_some_and(|first| !first.likeness.is_guess());
+        if is_typed && is_found && 1 < found.len() && !is_begun && best(&found).is_none() {
             self.shared.warn("several match: Tab chooses");
             return Vec::new();
         }
@@ -41,8 +47,10 @@ impl App {
         self.shared.palette.remember(line);
         let described = match (chosen, found.as_slice()) {
             (Some(at), found) => found.get(at),
-            (None, [only]) if !running::is_command(line) => Some(only),
-            (None, _) => None,
+            (None, _) if is_begun || running::is_command(line) => None,
+            // What is only a guess is to be chosen.
+            (None, [only]) => Some(only).filter(|only| !only.likeness.is_guess()),
+            (None, found) => best(found),
         };
         match described.and_then(|completion| completion.act) {
             Some((_, mode)) if self.shared.mode == Mode::Move && mode != Mode::Move => {
@@ -98,7 +106,7 @@ pub(crate) fn command_typed(shared: &Shared) -> Option<Completion> {
         Wanted::File(_, row, _) => row,
         Wanted::Command(typed) => running::begun_in(typed)?,
     };
-    Some(as_completion(shared, row))
+    Some(as_completion(row, &shared.keymap.actions(shared.mode)))
 }
 
 /// The ways to complete the command line, the best first.
@@ -137,28 +145,81 @@ fn wanted(shared: &Shared) -> Option<Wanted<'_>> {
     Some(file.unwrap_or(Wanted::Command(typed)))
 }
 
+/// The completion whose name is or begins with what was typed, if no other is as good.
+fn best(found: &[Completion]) -> Option<&Completion> {
+    let first = found.first()?;
+    let is_alone = found
+        .get(1)
+        .is_none_or(|next| first.likeness < next.likeness);
+    (is_alone && first.likeness <= Likeness::Begins).then_some(first)
+}
+
+/// The commands and the actions of keys that answer what was typed, the best first. An action is left out
+/// where a command that does the same is offered.
 fn commands_like(shared: &Shared, typed: &str) -> Vec<Completion> {
-    let wanted = typed.trim_end().to_lowercase();
-    let (mut found, mut keys) = (Vec::new(), Vec::new());
-    for row in ROWS {
-        let names = row.names.iter().map(|&name| (name, 0));
-        let texts = names.chain([(row.words, 1), (row.synonyms, 2)]);
-        if let Some(rank) = rank(texts, &wanted) {
-            keys.extend(row.key);
-            found.push((rank, as_completion(shared, row)));
-        }
-    }
-    let actions = if shared.disk.is_opening() {
-        Vec::new()
-    } else {
-        shared.keymap.actions(shared.mode)
+    let mut keys = Vec::new();
+    let found = matching::ranked(offered(shared), typed).into_iter();
+    let mut found: Vec<_> = found
+        .map(|(likeness, (row, completion))| {
+            keys.extend(row.and_then(|row| row.key));
+            let is_command = row.is_some();
+            (
+                is_command,
+                Completion {
+                    likeness,
+                    ..completion
+                },
+            )
+        })
+        .collect();
+    let name = |completion: &Completion| {
+        let (row, _) = completion.act?;
+        Some(shared.keymap.name_of(row))
     };
-    // A command that is offered does the same.
-    let others = actions
+    // What follows a command is its argument.
+    if running::begins_command(typed) {
+        found.retain(|(_, completion)| !completion.likeness.is_guess());
+    }
+    found.retain(|(is_command, completion)| {
+        *is_command || name(completion).is_none_or(|name| !keys.contains(&name))
+    });
+    found
         .into_iter()
-        .filter(|named| !keys.contains(&named.name));
-    found.extend(others.filter_map(|named| {
-        let rank = rank([(named.words, 0), (named.synonyms, 1)], &wanted)?;
+        .map(|(_, completion)| completion)
+        .collect()
+}
+
+/// What to say where nothing answers the line: what is nearest to it.
+pub(crate) fn nothing_found(shared: &Shared) -> Option<String> {
+    let Wanted::Command(typed) = wanted(shared)? else {
+        return None;
+    };
+    let typed = typed.trim();
+    if typed.is_empty() || running::begins_command(typed) {
+        return None;
+    }
+    let near = matching::nearest(offered(shared), typed, 3).into_iter();
+    let near = near.map(|(_, completion)| completion.shown);
+    Some(nothing_for(typed, near))
+}
+
+/// Every command and every action of a key, with the row of a command.
+fn offered(
+    shared: &Shared,
+) -> impl Iterator<Item = (Searched<'static>, (Option<&'static CommandRow>, Completion))> {
+    let actions = shared.keymap.actions(shared.mode);
+    let commands = ROWS.iter().map(|row| {
+        let completion = as_completion(row, &actions);
+        (row.searched(), (Some(row), completion))
+    });
+    let commands: Vec<_> = commands.collect();
+    let is_open = !shared.disk.is_opening();
+    let actions = actions.into_iter().filter(move |_| is_open).map(|named| {
+        let searched = Searched {
+            name: named.words,
+            synonyms: named.synonyms,
+            ..Searched::default()
+        };
         let keys = if named.mode == shared.mode || named.keys.is_empty() {
             named.keys
         } else {
@@ -170,12 +231,11 @@ fn commands_like(shared: &Shared, typed: &str) -> Vec<Completion> {
             words: "",
             keys,
             act: Some((named.row, named.mode)),
+            likeness: Likeness::Exact,
         };
-        Some((rank, completion))
-    }));
-    found.sort_by_key(|&(rank, _)| rank);
-    let found = found.into_iter().map(|(_, completion)| completion);
-    found.collect()
+        (searched, (None, completion))
+    });
+    commands.into_iter().chain(actions)
 }
 
 /// The names in the listed folder that a command may take and that begin as typed.
@@ -211,25 +271,23 @@ fn files_like(shared: &Shared, command: &str, typed: &str) -> Vec<Completion> {
             words: "",
             keys: String::new(),
             act: None,
+            likeness: Likeness::Exact,
         })
         .collect()
 }
 
-fn as_completion(shared: &Shared, command: &CommandRow) -> Completion {
+/// A command, with the keys of the same name in the present mode, otherwise in any.
+fn as_completion(command: &CommandRow, actions: &[NamedAction]) -> Completion {
+    let mut named = actions.iter();
+    let named = named.find(|named| Some(named.name) == command.key);
     Completion {
         line: command.name().to_owned(),
-        keys: keys_of(shared, command.key),
+        keys: named.map_or_else(String::new, |named| named.keys.clone()),
         shown: command.usage(),
         words: command.words,
         act: None,
+        likeness: Likeness::Exact,
     }
-}
-
-/// The keys with this name in the present mode, otherwise in any.
-fn keys_of(shared: &Shared, name: Option<&str>) -> String {
-    let mut named = shared.keymap.actions(shared.mode).into_iter();
-    let named = named.find(|named| Some(named.name) == name);
-    named.map_or_else(String::new, |named| named.keys)
 }
 
 /// Puts another completion into the line, wrapping around through the line as typed.
@@ -286,28 +344,4 @@ fn parted(typed: &str) -> (&str, &str) {
 
 fn folder_of(typed: &str) -> PathBuf {
     PathBuf::from(if typed.is_empty() { "." } else { typed })
-}
-
-/// How well the best of some texts answers what was typed, each worse than it is by a handicap.
-fn rank<'t>(texts: impl IntoIterator<Item = (&'t str, u8)>, wanted: &str) -> Option<u8> {
-    let ranks = texts
-        .into_iter()
-        .filter_map(|(text, handicap)| Some(likeness(text, wanted)? + handicap));
-    ranks.min()
-}
-
-/// How well a text answers what was typed, in lower case; 0 is best. `None` if it does not contain
-/// all of the words.
-fn likeness(text: &str, wanted: &str) -> Option<u8> {
-    let text = text.to_lowercase();
-    let begins_word = |at: usize| text[..at].ends_with([' ', '-']);
-    if text.starts_with(wanted) {
-        Some(0)
-    } else if text.match_indices(wanted).any(|(at, _)| begins_word(at)) {
-        Some(1)
-    } else if wanted.split_whitespace().all(|word| text.contains(word)) {
-        Some(2)
-    } else {
-        None
-    }
 }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::app::{App, Shared};
+use crate::matching::Searched;
 use crate::msg::Effect;
 
 /// A command: one row.
@@ -102,6 +103,18 @@ impl CommandRow {
     /// The first of its names, by which it is listed.
     pub(crate) fn name(&self) -> &'static str {
         self.names[0]
+    }
+
+    /// What it says of itself to those who search.
+    pub(crate) const fn searched(&self) -> Searched<'static> {
+        Searched {
+            // As keys are called by what they do.
+            name: self.words,
+            others: self.names,
+            words: "",
+            synonyms: self.synonyms,
+            topic: "",
+        }
     }
 
     /// Whether its arguments begin with a file name.

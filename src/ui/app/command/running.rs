@@ -1,9 +1,11 @@
 //! The commands by their names, and running them.
 
+use super::help::nothing_for;
 use super::row::{CommandRow, Run, Runs};
 use super::rows::ROWS;
 use crate::app::App;
 use crate::keymap::Mode;
+use crate::matching;
 use crate::msg::Effect;
 use text::nearest_word;
 
@@ -61,14 +63,12 @@ fn parse(line: &str) -> Result<(&'static CommandRow, Run), String> {
 }
 
 fn unknown(name: &str) -> String {
-    let names: Vec<_> = ROWS.iter().map(CommandRow::name).collect();
-    match nearest_word(name, names.iter().copied()) {
-        Some(nearest) => format!("unknown command `{name}`: did you mean {nearest}?"),
-        None => format!(
-            "unknown command `{name}`; the commands are {}",
-            names.join(", ")
-        ),
+    let names = ROWS.iter().map(CommandRow::name);
+    if let Some(nearest) = nearest_word(name, names) {
+        return format!("unknown command `{name}`: did you mean {nearest}?");
     }
+    let rows = ROWS.iter().map(|row| (row.searched(), row.name()));
+    nothing_for(name, matching::nearest(rows, name, 3))
 }
 
 impl App {

@@ -30,17 +30,17 @@ const CONFLICT: &[Context] = &[Context::Conflict];
 /// The most useful first.
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Row] = &[
-    Key::new(LISTS, "down", &[c('j'), key(Down)], "down")
+    Key::new(LISTS, "down", &[c('j'), key(Down)], "down").also("next below scroll navigate cursor")
         .hint_in(MOVED, 0, "move").hint_in(EDIT, 0, "field").hint_in(COLOUR, 10, "row").hint_in(PAGES, 0, "down").hint_in(CONFLICT, 0, "down")
         .does(|shared| list::move_cursor(shared, 1)),
-    Key::new(LISTS, "up", &[c('k'), key(Up)], "up")
+    Key::new(LISTS, "up", &[c('k'), key(Up)], "up").also("previous above scroll navigate cursor")
         .hint_in(MOVED, 0, "move").hint_in(EDIT, 0, "field").hint_in(COLOUR, 10, "row").hint_in(PAGES, 0, "up").hint_in(CONFLICT, 0, "up")
         .does(|shared| list::move_cursor(shared, -1)),
-    Key::in_turn(LONG_LISTS, "first", [c('g'), c('g')], "first").does(|shared| list::move_cursor(shared, isize::MIN)),
-    Key::new(LONG_LISTS, "last", &[c('G'), key(End)], "last").does(|shared| list::move_cursor(shared, isize::MAX)),
-    Key::new(LONG_LISTS, "first", &[key(Home)], "first").does(|shared| list::move_cursor(shared, isize::MIN)),
-    Key::new(LONG_LISTS, "page-down", &[key(PageDown)], "page down").does(|shared| list::turn_page(shared, 1)),
-    Key::new(LONG_LISTS, "page-up", &[key(PageUp)], "page up").does(|shared| list::turn_page(shared, -1)),
+    Key::in_turn(LONG_LISTS, "first", [c('g'), c('g')], "first").also("top beginning start home").does(|shared| list::move_cursor(shared, isize::MIN)),
+    Key::new(LONG_LISTS, "last", &[c('G'), key(End)], "last").also("end bottom").does(|shared| list::move_cursor(shared, isize::MAX)),
+    Key::new(LONG_LISTS, "first", &[key(Home)], "first").also("top beginning start home").does(|shared| list::move_cursor(shared, isize::MIN)),
+    Key::new(LONG_LISTS, "page-down", &[key(PageDown)], "page down").also("scroll").does(|shared| list::turn_page(shared, 1)),
+    Key::new(LONG_LISTS, "page-up", &[key(PageUp)], "page up").also("scroll").does(|shared| list::turn_page(shared, -1)),
 ];
 
 /// The keys of the list of errors.

@@ -14,7 +14,7 @@ const MESSAGES: Scope = These(&[Context::Messages]);
 /// The most useful first.
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Row] = &[
-    Key::new(HELP, "search", &[c('/')], "search").does(|shared| shared.overlays.open_search()),
+    Key::new(HELP, "search", &[c('/')], "search").also("find").does(|shared| shared.overlays.open_search()),
     Key::new(MESSAGES, "back", &[key(Esc), c('q'), c('M')], "close").does(|shared| shared.overlays.page = None),
     Key::new(HELP, "back", &[key(Esc), c('q'), c('?')], "close").does(|shared| shared.overlays.page = None),
 ];

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::keymap::{Mode, RowId};
+use crate::matching::Likeness;
 
 /// The number of command lines remembered.
 const REMEMBERED: usize = 100;
@@ -35,6 +36,8 @@ pub struct Completion {
     pub keys: String,
     /// The action of a key and the mode that has it; `None` for a command line.
     pub(crate) act: Option<(RowId, Mode)>,
+    /// How it answers what was typed.
+    pub(crate) likeness: Likeness,
 }
 
 impl Palette {

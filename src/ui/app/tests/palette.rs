@@ -43,7 +43,7 @@ scripts! {
 
         :size 3<Enter> | says :size needs WIDTHxHEIGHT, such as 800x600…
 
-        :zzz<Enter>    | says unknown command `zzz`…
+        :zzz<Enter>    | says Nothing for `zzz`
     ");
 
     tab_and_arrows_choose_and_the_typed_line_is_among_the_choices: ray().play(r"
@@ -77,7 +77,7 @@ scripts! {
         <Up>   | prompt :size 8x8
         <Down> | prompt :view reset
         <Down> | prompt :
-        <Down> | prompt :w
+        <Down> | prompt :export
     ");
 
     file_names_are_completed_from_their_folder: ray().play(r"
@@ -105,4 +105,93 @@ fn every_action_of_a_key_is_offered_by_its_description() {
             |found: Completion| found.shown == named.words || found.keys.ends_with(&named.keys);
         assert!(found.any(is_offered), "{named:?}");
     }
+}
+
+/// Everyday words, each with the start of a command or of what a key does that must be among the first
+/// three found; a command and its key are one.
+const EVERYDAY: &str = "
+screenshot :export
+gif :export
+animation :track
+turntable :track
+gamma :transfer
+resolution :size
+material edit its fields
+exit :q
+brightness :exposure
+why explain the pixel
+image :export
+video :export
+shadow explain the pixel
+color pick a colour
+colour pick a colour
+remove delete
+clone duplicate
+rotate rotate
+spin rotate
+resize scale
+save :w
+open :e
+import :mesh
+undo undo
+find filter the list
+quit :q
+help :help
+fullscreen show or hide the panels
+hide show or hide the object
+noise :denoise|reduce noise
+quality :render
+diff :compare|compare with the reference
+versus :compare
+pixel inspect a pixel of the picture
+wireframe show a wireframe
+keyframe key the value
+fov narrow
+depth show depth
+normals show normals
+theme :theme dark
+dark :theme dark
+errors errors and warnings
+log messages so far
+vim open the editor
+lamp add
+jpg :export
+screnshot :export
+exprot :export
+take a screenshot :export
+how do I quit :q
+change the brightness :exposure
+";
+
+#[test]
+fn everyday_words_find_what_they_mean_in_palette_and_help_alike() {
+    let mut missed = Vec::new();
+    for line in EVERYDAY.trim().lines() {
+        let mut app = open(SCENE);
+        let is_expected = |found: &[String], wanted: &str| {
+            let mut first = found.iter().take(3);
+            first.any(|found| wanted.split('|').any(|wanted| found.starts_with(wanted)))
+        };
+        let at = line
+            .find(" :")
+            .or_else(|| line.find(' '))
+            .expect("a row has two parts");
+        let (typed, wanted) = (&line[..at], line[at..].trim_start());
+        press(&mut app, &format!(":{typed}"));
+        let palette = command::completions(&app.shared).into_iter();
+        let palette: Vec<_> = palette.map(|found| found.shown).collect();
+        let help = command::found_in_help(&app.shared, typed).into_iter();
+        let help = help.map(|(entry, _)| match entry.keys.strip_prefix(':') {
+            Some(_) => entry.keys,
+            None => entry.words,
+        });
+        let help: Vec<_> = help.collect();
+        for (place, found) in [("palette", &palette), ("help", &help)] {
+            if !is_expected(found, wanted) {
+                let first = found.iter().take(4).collect::<Vec<_>>();
+                missed.push(format!("{place}: {typed} → {first:?}, not {wanted}"));
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{}", missed.join("\n"));
 }

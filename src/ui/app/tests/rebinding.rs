@@ -2,7 +2,6 @@
 
 use super::scripts::{Stage, ray, scripts};
 use crate::app::command;
-use crate::keymap::HelpLine;
 
 /// The stage with other keys for undoing, and none for what `u` did.
 fn rebound<'s>() -> Stage<'s> {
@@ -13,7 +12,7 @@ scripts! {
     a_bound_key_acts_and_the_one_it_replaces_does_not: rebound().play(r"
         jjjjd
         @note deleted text
-        u         | text deleted | says `u` in SEQUENCE (T): undo the last key; ? for keys
+        u         | text deleted | says u in SEQUENCE (T): undo the last key (? for keys)
         <Ctrl-x>u | text opened
     ");
 
@@ -40,12 +39,8 @@ scripts! {
 
     help_hints_and_palette_show_the_bound_keys: {
         let mut session = rebound().session();
-        let undo = HelpLine::Entry {
-            keys: "Ctrl-X u".to_owned(),
-            words: "undo",
-        };
-        let help = command::help_columns(&session.app.shared, 80);
-        assert!(help.concat().contains(&undo));
-        session.run("jjjD | hints …Ctrl-X u undo, …\n:undo | completed …; undo [Ctrl-X u]; …");
+        let found = command::found_in_help(&session.app.shared, "undo");
+        assert_eq!(found[0].0.keys, "Ctrl-X u");
+        session.run("jjjD | hints …Ctrl-X u undo, …\n:undo | completed undo [Ctrl-X u]; …");
     };
 }

@@ -26,7 +26,7 @@ scripts! {
         export a.bmp fine         | `fine` is neither
         export cancel             | no export is running
         expoort                   | did you mean export?
-        put 8x8                   | the commands are
+        put 8x8                   | Nothing for `put`; nearest:
         size 0x5                  | :size needs WIDTHxHEIGHT, such as 800x600
         size 99999x99999          | 99999x99999: a picture has at most
     ");

@@ -5,12 +5,12 @@ use super::*;
 
 scripts! {
     keys_without_a_meaning_say_where_they_have_one: ray().each(r"
-        S        | says `S` in VIEW (v): write the view into the scene; ? for keys
-        jeo      | says `o` in SELECT: toggle the outline of the selection; ? for keys
-        vR       | says `R` in SELECT (Enter): rename; ? for keys
-        vX       | says `X` is not bound in VIEW; ? for keys
-        <Ctrl-y> | says `Ctrl-Y` is not bound in SELECT; ? for keys
-        ?X       | says `X` is not bound here
+        S        | says S in VIEW (v): write the view into the scene (? for keys)
+        jeo      | says o in SELECT: toggle the outline of the selection (? for keys)
+        vR       | says R in SELECT (Enter): rename (? for keys)
+        vX       | says X is not bound here (? for keys)
+        <Ctrl-y> | says Ctrl-Y is not bound here (? for keys)
+        ?X       | says X is not bound here
         je5      | not says
     ");
 
