@@ -8,7 +8,7 @@ const LONGEST: (usize, usize) = (80, 12);
 /// Words that say nothing of what is wanted.
 const FILLERS: &[&str] = &[
     "a", "an", "the", "to", "of", "in", "on", "my", "is", "it", "i", "do", "how", "can", "for",
-    "and", "with", "this", "me", "please", "take", "make", "get", "want", "what", "where",
+    "and", "with", "this", "me", "please", "take", "make", "get", "want", "what", "where", "go",
 ];
 
 /// Endings that do not change what a word means.

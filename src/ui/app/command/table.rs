@@ -78,7 +78,7 @@ pub(super) fn card(
     let whole = tables
         .iter()
         .position(|table| table.holds(entries.len(), room));
-    let best = whole.map_or(tables.last(), |at| tables.get(at));
+    let best = whole.map_or_else(|| tables.last(), |at| tables.get(at));
     let mut lines = vec![HelpLine::heading(heading)];
     lines.extend(best.into_iter().flat_map(|table| table.filled(room)));
     lines

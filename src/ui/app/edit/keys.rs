@@ -26,7 +26,7 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(EDIT, "nudge-down", &[c('h'), key(Left)], "nudge down").also("decrease lower less decrement smaller value number").hint(10, "nudge").does(|shared| nudge(shared, -1, Plain)).when(has_steps),
     Key::new(EDIT, "choose", &[key(Enter)], "choose from a list, or type a number").also("select option dropdown value number").hint(30, "type").does(enter_value),
     Key::new(EDIT, "type", &[c('i')], "type a value (or press a digit or #)").also("enter number value input exact").does(type_current),
-    Key::new(EDIT, "pick-colour", &[c('c')], "pick a colour").also("color paint hue rgb hsv material palette diffuse tint recolor swatch red green blue").hint(50, "colour").does(open_picker).when(has_colour),
+    Key::new(EDIT, "pick-colour", &[c('c')], "pick a colour").also("color paint hue rgb hsv material palette diffuse tint recolor swatch red green blue saturation tone shade").hint(50, "colour").does(open_picker).when(has_colour),
     Key::new(EDIT, "next-number", &[key(Tab)], "next number").also("component field jump").hint(70, "next number").does(|shared| next_component(shared, 1)).when(has_components),
     Key::new(EDIT, "nudge-up-coarse", &[c('L'), shift(Right)], "nudge up ten steps").does(|shared| nudge(shared, 1, Coarse)),
     Key::new(EDIT, "nudge-down-coarse", &[c('H'), shift(Left)], "nudge down ten steps").does(|shared| nudge(shared, -1, Coarse)),

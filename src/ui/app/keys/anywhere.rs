@@ -55,7 +55,7 @@ const OUTSIDE_TRACE: &[Context] = &[
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Row] = &[
     Key::new(Everywhere, "back", &[key(Esc)], "back").also("leave close cancel return escape").hint_in(LEAVABLE, 80, "back").hint_in(ERRORS, 80, "close").does(back::go_back),
-    Key::new(Sceneless, "help", &[c('?')], "help").also("manual documentation shortcuts keys keybindings cheatsheet tutorial guide instructions howto hotkeys lost stuck bindings controls").lasting("help").does(|shared| shared.overlays.open_page(Page::reading(Context::Help))),
+    Key::new(Sceneless, "help", &[c('?')], "help").also("manual documentation shortcuts keys keybindings cheatsheet tutorial guide instructions howto hotkeys lost stuck bindings controls keyboard").lasting("help").does(|shared| shared.overlays.open_page(Page::reading(Context::Help))),
     Key::new(Sceneless, "command", &[c(':')], "command").also("palette menu actions").lasting("command").does(|shared| shared.open_palette_with("")),
     Key::new(Everywhere, "save", &[c('w')], "save the scene").also("write store keep backup").hint(100, "save").requests(files::save_key).when(|shared| !shared.is_saved()),
     Key::new(Everywhere, "export", &[c('b')], "export what is shown").also("screenshot image picture png jpg save render").hint(120, "export").requests(exports::export_default),
@@ -77,7 +77,7 @@ pub(crate) const OTHERS: &[Row] = &[
     Key::new(Everywhere, "smaller-list", &[alt(Char('{'))], "smaller list, larger fields").requests(|shared| panels::resize_by_key(shared, Border::List, -1)),
     Key::new(Everywhere, "larger-list", &[alt(Char('}'))], "larger list, smaller fields").requests(|shared| panels::resize_by_key(shared, Border::List, 1)),
     Key::new(Everywhere, "darker", &[c('<')], "darker display, by half a stop").also("brightness exposure dim dark light").does(|shared| display::expose(shared, -1)),
-    Key::new(Everywhere, "brighter", &[c('>')], "brighter display").also("brightness exposure bright lighten light").does(|shared| display::expose(shared, 1)),
+    Key::new(Everywhere, "brighter", &[c('>')], "brighter display").also("brightness exposure bright lighten light gloomy underexposed").does(|shared| display::expose(shared, 1)),
     Key::new(Everywhere, "denoise", &[c('~')], "reduce noise on screen, or no longer").also("noise grain smooth clean noisy filter speckles fireflies").requests(display::toggle_denoising),
     Key::new(Everywhere, "integrator", &[c('P')], "next integrator: Whitted, paths, photons").also("path tracing pathtracer global illumination algorithm renderer bounce caustics gi bounces realistic reflections").hint_in(TRACE, 90, "integrator").does(text::next_integrator),
     Key::new(Everywhere, "cure", &[c('C')], "apply the suggested render setting").also("fix repair suggestion improve black noisy dark").does(suggesting::cure),

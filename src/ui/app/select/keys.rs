@@ -22,7 +22,7 @@ const SELECT: Scope = These(HERE);
 /// The most useful first.
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Row] = &[
-    Key::new(SELECT, "edit", &[key(Enter), c('e')], "edit its fields").also("material color colour properties change texture attributes settings position size reflection transparency glass mirror shiny radius parameter intensity opacity alpha ior refraction specular diffuse emission roughness metal strength").hint(10, "edit").does(|shared| shared.enter(Mode::Edit)).when(|shared| !shared.cursor.fields().is_empty()),
+    Key::new(SELECT, "edit", &[key(Enter), c('e')], "edit its fields").also("material color colour properties change texture attributes settings position size reflection transparency glass mirror shiny radius parameter intensity opacity alpha ior refraction specular diffuse emission roughness metal strength plastic wood surface").hint(10, "edit").does(|shared| shared.enter(Mode::Edit)).when(|shared| !shared.cursor.fields().is_empty()),
     Key::new(SELECT, "camera", &[c('v')], "move the camera").also("viewpoint view orbit angle look perspective navigate rotate").hint(40, "camera").does(|shared| shared.enter(Mode::View)),
     Key::new(SELECT, "delete", &[c('d')], "delete").also("remove erase trash kill cut destroy clear").does(delete),
     Key::new(SELECT, "duplicate", &[c('D')], "duplicate").also("clone copy another").does(duplicate),
@@ -32,7 +32,7 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(SELECT, "rename", &[c('R')], "rename").also("name label title call").does(start_renaming),
     Key::new(SELECT, "reorder-up", &[c('K')], "move up in the list").also("order sort earlier").does(|shared| reorder(shared, Neighbour::Previous)),
     Key::new(SELECT, "reorder-down", &[c('J')], "move down in the list").also("order sort later").does(|shared| reorder(shared, Neighbour::Next)),
-    Key::new(SELECT, "add", &[c('a')], "add").also("create insert new light sphere box object cube primitive shape lamp bulb sun torus cone cylinder plane triangle ellipsoid ball geometry primitives floor spotlight").hint(20, "add").does(open_additions),
+    Key::new(SELECT, "add", &[c('a')], "add").also("create insert new light sphere box object cube primitive shape lamp bulb sun torus cone cylinder plane triangle ellipsoid ball geometry primitives floor spotlight prism pyramid").hint(20, "add").does(open_additions),
     Key::new(SELECT, "solo", &[c('l')], "show only this in the preview").also("isolate alone hide others only").does(display::toggle_solo),
     Key::new(SELECT, "change-type", &[c('c')], "change the type").also("kind convert turn into shape replace").does(open_kinds),
 ];
