@@ -3,7 +3,7 @@
 use super::bindings::{Keymap, RowId};
 use super::chord::Keys;
 use super::context::{Context, Mode};
-use super::joined::Joined;
+use super::joined::{HelpEntry, Joined};
 use super::key::Hint;
 use super::section::Section;
 use super::typed_line::{Line, line_hints};
@@ -21,17 +21,6 @@ pub struct Topic {
     pub heading: &'static str,
     /// Its lines, the most useful first.
     pub entries: Vec<HelpEntry>,
-}
-
-/// An input and its effect, or a term and what it means.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct HelpEntry {
-    /// The keys or other input: `j ↓`.
-    pub keys: String,
-    /// Description of the effect.
-    pub words: String,
-    /// Everyday words that find it too.
-    pub synonyms: String,
 }
 
 /// Command line arguments.
@@ -60,17 +49,6 @@ const MOUSE: [(&str, &str); 15] = [
 
 /// An input and its description.
 pub type Entry = (String, &'static str);
-
-impl HelpEntry {
-    /// An entry that only its own words find.
-    pub fn new(keys: &str, words: &str) -> Self {
-        Self {
-            keys: keys.to_owned(),
-            words: words.to_owned(),
-            synonyms: String::new(),
-        }
-    }
-}
 
 impl Keymap {
     /// The keys that a mode has, in order of use: those with hints, then its own, then those that others

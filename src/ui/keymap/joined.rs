@@ -2,7 +2,6 @@
 
 use super::bindings::Row;
 use super::chord::Keys;
-use super::help::HelpEntry;
 use super::key::Key;
 
 /// What keys next to each other may differ in.
@@ -19,6 +18,28 @@ const DIRECTIONS: &[&[&str]] = &[
 
 /// The most keys of a row that a short line shows, in characters with the blank between them.
 const SHORT: usize = 8;
+
+/// An input and its effect, or a term and what it means.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct HelpEntry {
+    /// The keys or other input: `j ↓`.
+    pub keys: String,
+    /// Description of the effect.
+    pub words: String,
+    /// Everyday words that find it too.
+    pub synonyms: String,
+}
+
+impl HelpEntry {
+    /// An entry that only its own words find.
+    pub fn new(keys: &str, words: &str) -> Self {
+        Self {
+            keys: keys.to_owned(),
+            words: words.to_owned(),
+            synonyms: String::new(),
+        }
+    }
+}
 
 /// Neighbouring rows whose descriptions differ in a direction.
 pub(super) struct Joined {
