@@ -52,7 +52,7 @@ mod suggesting;
 #[cfg(test)]
 pub(super) mod tests;
 pub(crate) mod text;
-mod trace;
+pub(crate) mod trace;
 mod transform;
 pub(crate) mod tutor;
 mod update;

@@ -98,11 +98,12 @@ macro_rules! modes {
                 }
             }
 
-            /// Whether the keys of a row would do something now.
-            fn acts(&self, at: usize, app: &App) -> bool {
+            /// Whether the keys of a row would do something now, and the present words of their hint if
+            /// those depend on what is true.
+            fn now(&self, at: usize, app: &App) -> (bool, Option<&'static str>) {
                 match self {
-                    Self::Shared(rows) => rows[at].acts(&(), &app.shared),
-                    $($(Self::$rows(rows) => rows[at].acts(&app.$field, &app.shared),)?)+
+                    Self::Shared(rows) => rows[at].now(&(), &app.shared),
+                    $($(Self::$rows(rows) => rows[at].now(&app.$field, &app.shared),)?)+
                 }
             }
         }
@@ -148,6 +149,7 @@ const ROWS: &[Rows] = &[
     Rows::Sequence(sequence::KEYS),
     Rows::Shared(inspect::KEYS),
     Rows::Shared(edit::KEYS),
+    Rows::Shared(keys::lists::REPEAT),
     Rows::Shared(camera::KEYS),
     Rows::Compare(compare::KEYS),
     Rows::Shared(display::KEYS),
@@ -210,8 +212,11 @@ impl App {
 
     /// The hints for the keys that do something now, the most useful first.
     pub fn hints(&self) -> Vec<Entry> {
-        let acts = |id: RowId| row(id).is_some_and(|(rows, at)| rows.acts(at, self));
-        self.shared.keymap.hints(self.shared.context(), acts)
+        let now = |id: RowId| row(id).map(|(rows, at)| rows.now(at, self));
+        let acts = |id: RowId| now(id).is_some_and(|(acts, _)| acts);
+        let words = |id: RowId| now(id).and_then(|(_, words)| words);
+        let context = self.shared.context();
+        self.shared.keymap.worded_hints(context, acts, words)
     }
 }
 

@@ -149,7 +149,9 @@ impl App {
             // Without a scene, it is of one that was left.
             Target::Preview | Target::Trace if shared.scene.is_some() => {
                 let effects = suggesting::judge_picture(shared, target, &frame);
+                let was_unseen = trace::in_background(shared).is_some();
                 shared.pictures.take(target, frame);
+                trace::end_unseen(shared, was_unseen);
                 return effects;
             }
             Target::Preview | Target::Trace => {}

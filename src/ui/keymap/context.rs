@@ -162,6 +162,8 @@ contexts! {
         MovedView, "moved-view", "when asked to leave a moved view";
         /// The question whether to quit although a file is being saved or exported.
         Wait, "wait", "when asked to quit during a save or an export";
+        /// The question whether to save unsaved edits and open the editor.
+        SaveFirst, "save-first", "when the editor is opened on unsaved edits";
         /// The question whether an export may overwrite a file.
         Overwrite, "overwrite", "when asked to overwrite a picture";
         /// The question whether to recover the edits of an earlier run.

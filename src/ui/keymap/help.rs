@@ -125,16 +125,29 @@ impl Keymap {
         hints.collect()
     }
 
-    /// Returns the hints for a context, the most useful first, of keys that would do something. Without
-    /// hints of their own, questions and pages show all of their keys.
+    /// Returns the hints for a context in the words that they always have.
+    #[cfg(test)]
     pub fn hints(&self, context: Context, acts: impl Fn(RowId) -> bool) -> Vec<Entry> {
+        self.worded_hints(context, acts, |_| None)
+    }
+
+    /// Returns the hints for a context, the most useful first, of keys that would do something; `words`
+    /// gives those that depend on what is true now. Without hints of their own, questions and pages show all
+    /// of their keys.
+    pub fn worded_hints(
+        &self,
+        context: Context,
+        acts: impl Fn(RowId) -> bool,
+        words: impl Fn(RowId) -> Option<&'static str>,
+    ) -> Vec<Entry> {
         let here = self.rows.iter().filter(|row| row.key.scope.holds(context));
         let mut own = here.clone().filter(|row| row.key.is_alone());
         let is_terse = own.any(|row| row.key.hint_of(context).is_some());
         let hints = here.filter(|row| acts(row.id)).filter_map(|row| {
             let all =
                 || (!is_terse && row.key.is_alone()).then(|| Hint::new(UNHINTED, row.key.words));
-            let hint = row.key.hint_of(context).or_else(all)?;
+            let mut hint = row.key.hint_of(context).or_else(all)?;
+            hint.words = words(row.id).unwrap_or(hint.words);
             Some((hint, self.key(context, row.key.name)?))
         });
         let mut hints: Vec<_> = hints.collect();

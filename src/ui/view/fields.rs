@@ -8,7 +8,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::list::swatch;
 use super::row::{self, Focus, Row};
-use crate::app::{FieldRow, Provenance, Shared, Stride, Typing, edit};
+use crate::app::{FieldRow, Provenance, Shared, Stride, Typing, edit, text as changes};
 use crate::framing::clear;
 use crate::keymap::Mode;
 use crate::layout::marker_at;
@@ -31,7 +31,11 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
         Stride::Coarse => Some("step × 10".to_owned()),
     };
     let selected = shared.cursor.selected();
-    let name = shared.source().name(selected);
+    let mut name = shared.source().name(selected);
+    let others = shared.cursor.marks.len().saturating_sub(1);
+    if 0 < others && changes::sets_marked(shared) {
+        name = format!("{name} + {others} marked");
+    }
     let right = stride
         .or_else(|| users(shared, selected))
         .unwrap_or_default();

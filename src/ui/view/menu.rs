@@ -23,6 +23,7 @@ pub(crate) fn render(shared: &Shared, list: Rect, body: Rect, buffer: &mut Buffe
         Purpose::Add => "add",
         Purpose::Retype => "change to",
         Purpose::Value(key) => key,
+        Purpose::Reference => "compare with",
     };
     let shown = menu.shown();
     let place = format!("{}/{}", (menu.filter.at + 1).min(shown.len()), shown.len());

@@ -12,8 +12,9 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 
 use super::row::Row;
-use crate::app::{App, Message, OnDisk, Shared, display, files, text};
+use crate::app::{App, Message, OnDisk, Shared, display, files, text, trace};
 use crate::keymap::Mode;
+use crate::msg::Target;
 use crate::terminal::ColourDepth;
 use crate::text_width::visible;
 use crate::theme;
@@ -55,11 +56,18 @@ fn segments(app: &App, depth: ColourDepth) -> Segments {
         let text = format!("export {frame}{}{queued}", picture::percent(export.done()));
         segments.say(Rank::Work, text, theme::ACCENT);
     }
+    if let Some(trace) = trace::in_background(shared) {
+        segments.say(Rank::Work, picture::background(trace), theme::ACCENT);
+    }
     if shared.assets.are_awaited() {
         segments.say(Rank::Departure, "reading files", theme::ACCENT);
     }
     if let Some(progress) = shared.picture().progress() {
-        picture::progress(progress, &mut segments);
+        let asked = match shared.seen() {
+            Target::Preview => shared.rendering().spp(),
+            _ => u32::MAX,
+        };
+        picture::progress(progress, asked, &mut segments);
     }
     if shared.scene.is_some() {
         picture::making(shared, &mut segments);

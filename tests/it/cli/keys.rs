@@ -190,7 +190,7 @@ fn a_wait_shows_the_next_frame_of_a_sequence_that_plays() {
     let playing = last("T wait Space wait wait");
     for screen in [stepped, playing] {
         let mut words = screen.split_ascii_whitespace();
-        assert!(words.any(|word| word == "2/47"), "{screen}");
+        assert!(words.any(|word| word == "(3/48)"), "{screen}");
     }
 }
 

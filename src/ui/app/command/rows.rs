@@ -98,6 +98,9 @@ fn new(said: &str) -> Result<Run, String> {
 fn compare(named: Option<PathBuf>) -> Run {
     Run::within(|app| match named {
         Some(named) => compare::read_reference(&mut app.compare, &mut app.shared, named),
+        None if app.compare.reference.is_none() => {
+            compare::start(&mut app.compare, &mut app.shared)
+        }
         None => app.outside(|app| compare::start(&mut app.compare, &mut app.shared)),
     })
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::asking::ask_for_reference;
 use super::contrast::Contrast;
 use super::grading::{graded_aov, graded_job};
 use super::state::{Compare, Origin, Reference, Wipe, Work, shown};
@@ -18,6 +19,10 @@ use scene::{Camera, Images, Rendering, Scene, Size};
 pub(crate) fn start(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> {
     if shared.mode == Mode::Compare {
         end(shared);
+        return Vec::new();
+    }
+    if compare.reference.is_none() {
+        ask_for_reference(shared);
         return Vec::new();
     }
     shared.document.end_step();

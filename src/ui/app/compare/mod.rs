@@ -1,5 +1,6 @@
 //! COMPARE: pins and loads a reference, traces what corresponds to it, and looks at both.
 
+mod asking;
 mod comparing;
 mod contrast;
 mod grading;

@@ -3,16 +3,33 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::asking::{OTHER, PIN};
 use super::comparing::{comparison_jobs, start};
 use super::grading::grading;
 use super::state::{Compare, Origin, Reference, shown};
 use crate::app::refusing::Refusable;
-use crate::app::{Shared, display, text};
+use crate::app::{Purpose, Shared, display, text};
 use crate::keymap::{Context, Mode};
 use crate::msg::Effect;
 use crate::reference::{ReferenceId, ReferenceRead, ReferenceSource};
 use ::text::Severity;
 use render::Frame;
+
+/// Does what was chosen from the menu of what to compare with.
+pub(super) fn take_answer(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> {
+    let menu = &mut shared.overlays.menu;
+    let answered = menu.take_if(|menu| menu.purpose == Purpose::Reference && menu.is_answered);
+    let chosen = answered.and_then(|menu| Some(menu.chosen()?.name.clone()));
+    match chosen.as_deref() {
+        Some(PIN) => pin(compare, shared),
+        Some(OTHER) => {
+            shared.open_palette_with("compare ");
+            Vec::new()
+        }
+        Some(way) => read_reference(compare, shared, way.into()),
+        None => Vec::new(),
+    }
+}
 
 /// Makes the picture on screen the reference.
 pub(super) fn pin(compare: &mut Compare, shared: &mut Shared) -> Vec<Effect> {

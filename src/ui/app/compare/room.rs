@@ -1,6 +1,7 @@
 //! How COMPARE reacts to steps, presses and drags.
 
 use super::comparing::{follow, lend, press};
+use super::referring::take_answer;
 use super::state::Compare;
 use crate::app::room::Room;
 use crate::app::shared::Shared;
@@ -16,7 +17,9 @@ impl Room for Compare {
     }
 
     fn follow(&mut self, shared: &mut Shared) -> Vec<Effect> {
-        follow(self, shared)
+        let mut effects = take_answer(self, shared);
+        effects.extend(follow(self, shared));
+        effects
     }
 
     fn press(&mut self, shared: &mut Shared, at: (u16, u16)) -> Option<Vec<Effect>> {

@@ -3,7 +3,9 @@
 
 use crossterm::event::{KeyCode, KeyEvent};
 
+use super::repeating::note_set;
 use super::typing::{assign_whole, type_current};
+use crate::app::shared::change::Change;
 use crate::app::shared::menu::{Entry, Menu, Purpose};
 use crate::app::values::colours;
 use crate::app::{Shared, select, text};
@@ -160,10 +162,16 @@ fn choose_entry(shared: &mut Shared) {
             return;
         }
         Purpose::Add => select::add(shared, &name),
+        Purpose::Reference => {
+            let menu = shared.overlays.menu.as_mut();
+            menu.expect("it has been chosen from").is_answered = true;
+            return;
+        }
         Purpose::Retype => {
             let edits = shared.source().retyping(node, &name);
             if select::restructure(shared, edits, None, &format!("changed to {name}")) {
                 text::merge_input(shared);
+                shared.cursor.changed = Some(Change::Retyped(name));
             }
         }
     }
@@ -186,6 +194,8 @@ fn choose_value(shared: &mut Shared, name: &str) {
     };
     if is_kept {
         text::keep_live_edit(shared);
+        note_set(shared);
+        text::say_marked(shared);
         shared.overlays.menu = None;
     }
 }

@@ -1,5 +1,6 @@
 //! Picking a colour: each change is tried out in the text at once, and the whole is one undo step.
 
+use super::repeating::note_set;
 use crate::app::shared::picker::{ColourPicker, PickerRow};
 use crate::app::values::hsv::Hsv;
 use crate::app::values::literals::plain;
@@ -79,8 +80,12 @@ pub(crate) fn paste_colour(shared: &mut Shared, text: &str) {
 
 /// Keeps the colour and closes the picker.
 pub(crate) fn confirm_colour(shared: &mut Shared) {
-    shared.overlays.picker = None;
+    let picker = shared.overlays.picker.take();
     text::keep_live_edit(shared);
+    if picker.is_some_and(|picker| picker.live_edit.is_applied) {
+        note_set(shared);
+        text::say_marked(shared);
+    }
 }
 
 /// Puts the colour back and closes the picker.

@@ -4,6 +4,7 @@ mod choosing;
 mod colouring;
 mod keys;
 mod nudging;
+mod repeating;
 mod sliding;
 mod typing;
 
@@ -12,5 +13,6 @@ pub(crate) use choosing::{
 };
 pub(crate) use colouring::{confirm_colour, move_picker, paste_colour, place_colour, take_swatch};
 pub(crate) use keys::KEYS;
+pub(crate) use repeating::repeat;
 pub(crate) use sliding::{end_slide, press_slider, slide_to, slider};
 pub(crate) use typing::{assign_whole, has_room, literals_of, typing_key};

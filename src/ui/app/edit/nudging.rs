@@ -1,8 +1,10 @@
 //! Nudging values, and the component that is nudged.
 
+use super::repeating::edits_by;
+use crate::app::shared::change::Change;
 use crate::app::values::literals;
 use crate::app::{Shared, Stride, text};
-use ::text::parse_number;
+use ::text::{Diagnostic, parse_number};
 use language::schema::{Field, Kind};
 
 /// The current component's field and its literal as shown.
@@ -49,9 +51,33 @@ pub(super) fn nudge(shared: &mut Shared, steps: i8, stride: Stride) {
         } else {
             "the step is too small to change this number"
         });
-    } else if let Err(refused) = text::assign(shared, &[vec![(shared.cursor.component, nudged)]]) {
+    } else if let Err(refused) = assign_nudged(shared, &nudged, f64::from(steps) * step) {
         shared.fail(refused.message);
     }
+}
+
+/// Sets the current component to its nudged literal; the numbers of marked nodes change by the same amount.
+fn assign_nudged(shared: &mut Shared, nudged: &str, by: f64) -> Result<(), Diagnostic> {
+    let component = shared.cursor.component;
+    let Some(field) = shared.cursor.current().map(|placed| placed.field) else {
+        return Ok(());
+    };
+    let values = vec![(component, nudged.to_owned())];
+    if !field.kind.is_numeric() {
+        text::assign(shared, std::slice::from_ref(&values))?;
+        shared.cursor.changed = Some(Change::Set(field, values));
+        return Ok(());
+    }
+    if text::sets_marked(shared) && 1 < shared.cursor.marks.len() {
+        let nodes: Vec<_> = shared.cursor.marks.iter().copied().collect();
+        let (edits, _) = edits_by(shared, &nodes, (field, component), by);
+        text::try_edits(shared, &edits)?;
+        text::say_marked(shared);
+    } else {
+        text::assign(shared, &[values])?;
+    }
+    shared.cursor.changed = Some(Change::Nudged(field, component, by));
+    Ok(())
 }
 
 /// Makes the steps of nudges larger or smaller.

@@ -2,6 +2,7 @@
 
 use ratatui::layout::Rect;
 
+use super::repeating::note_set;
 use crate::app::shared::cursor::Slide;
 use crate::app::values::colours;
 use crate::app::{Shared, text};
@@ -60,8 +61,12 @@ pub(crate) fn slide_to(shared: &mut Shared, column: u16) -> bool {
 
 /// Keeps the number of the slider being dragged.
 pub(crate) fn end_slide(shared: &mut Shared) {
-    if shared.cursor.slide.take().is_some() {
+    if let Some(slide) = shared.cursor.slide.take() {
         text::keep_live_edit(shared);
+        if slide.live_edit.is_applied {
+            note_set(shared);
+            text::say_marked(shared);
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
 use super::nudging::{current, next_component};
+use crate::app::shared::change::Change;
 use crate::app::shared::cursor::Typing;
 use crate::app::shared::line;
 use crate::app::values::typed;
@@ -87,6 +88,10 @@ pub(crate) fn assign_whole(shared: &mut Shared, values: &[Values]) -> Result<(),
     let outcome = text::assign(shared, values);
     shared.document.end_step();
     if outcome.is_ok() {
+        let field = shared.cursor.current().map(|placed| placed.field);
+        if let Some((field, values)) = field.zip(values.first()) {
+            shared.cursor.changed = Some(Change::Set(field, values.clone()));
+        }
         text::merge_input(shared);
     }
     outcome

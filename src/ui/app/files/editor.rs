@@ -2,7 +2,7 @@
 
 use super::outside;
 use super::reading::read_again;
-use crate::app::{OnDisk, Shared, inspect};
+use crate::app::{AfterLeaving, Dialog, OnDisk, Shared, inspect};
 use crate::msg::Effect;
 use text::Position;
 
@@ -15,21 +15,14 @@ pub(crate) fn open_editor(shared: &mut Shared) -> Vec<Effect> {
     if shared.buffer.is_some() {
         return show_in_running_editor(shared);
     }
-    let (save, editor) = (shared.key_for("save"), shared.key_for("editor"));
-    let obstacle = match shared.disk.state {
-        OnDisk::New => {
-            let name = shared.disk.name();
-            Some(format!("{name} is new: press {save} to write it"))
-        }
+    let is_unsaved = match shared.disk.state {
+        OnDisk::New => true,
         // A file that was not taken must be corrected first.
-        OnDisk::Faulty(_) | OnDisk::Unreadable => None,
-        _ if shared.document.is_dirty() => Some(format!(
-            "there are unsaved edits: press {save} to save them"
-        )),
-        _ => None,
+        OnDisk::Faulty(_) | OnDisk::Unreadable => false,
+        _ => shared.document.is_dirty(),
     };
-    if let Some(obstacle) = obstacle {
-        shared.warn(format!("{obstacle}, then {editor}"));
+    if is_unsaved {
+        shared.overlays.dialog = Some(Dialog::Leave(AfterLeaving::Editor));
         return Vec::new();
     }
     let wrong = shared.wrong();

@@ -3,6 +3,7 @@
 
 use std::time::Duration;
 
+use super::editor::open_editor;
 use super::recover::keep_the_rest;
 use super::replacing::{request_scene, start_carried, start_scene};
 use super::saving::{end_save, save};
@@ -128,7 +129,9 @@ pub(crate) fn leave_when_done(shared: &mut Shared) -> Vec<Effect> {
     }
     match shared.jobs.next.take() {
         // A save does not keep the view.
-        Some(next) if shared.is_view_unwritten() => leave_for(shared, next),
+        Some(next) if next != AfterLeaving::Editor && shared.is_view_unwritten() => {
+            leave_for(shared, next)
+        }
         Some(next) if !shared.document.is_dirty() => leave(shared, next),
         _ => Vec::new(),
     }
@@ -171,6 +174,7 @@ fn leave(shared: &mut Shared, next: AfterLeaving) -> Vec<Effect> {
         AfterLeaving::Open(path) => request_scene(shared, path),
         AfterLeaving::New(language) => start_scene(shared, language),
         AfterLeaving::Carried(carried) => start_carried(shared, carried),
+        AfterLeaving::Editor => open_editor(shared),
     }
 }
 
@@ -198,6 +202,15 @@ pub(crate) fn question_before(shared: &Shared, next: &AfterLeaving) -> Question 
         AfterLeaving::Open(path) => (" Open ", format!("Open {}?", path.display())),
         AfterLeaving::New(_) => (" New ", "Start a new scene?".to_owned()),
         AfterLeaving::Carried(carried) => (" Open ", format!("Open {}?", carried.name)),
+        AfterLeaving::Editor => {
+            let new = || format!("{} is not written yet", shared.disk.name());
+            let text = lost_text(shared).unwrap_or_else(new);
+            let text = format!("{text}. Save and open the editor?");
+            return Question {
+                title: " Editor ",
+                text,
+            };
+        }
     };
     Question {
         title,

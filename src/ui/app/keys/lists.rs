@@ -2,12 +2,12 @@
 
 use crossterm::event::KeyCode;
 
-use crate::app::list;
 use crate::app::room::Row;
-use crate::keymap::{Context, Key, Mode, Scope, c, key};
+use crate::app::{edit, list};
+use crate::keymap::{Context, Key, Mode, Scope, alt, c, key};
 
 use Context::In;
-use KeyCode::{Down, End, Enter, Home, PageDown, PageUp, Up};
+use KeyCode::{Char, Down, End, Enter, Home, PageDown, PageUp, Up};
 use Scope::{PagesAnd, These};
 
 /// What has lines.
@@ -41,6 +41,14 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(LONG_LISTS, "first", &[key(Home)], "first").also("top beginning start home").does(|shared| list::move_cursor(shared, isize::MIN)),
     Key::new(LONG_LISTS, "page-down", &[key(PageDown)], "page down").also("scroll").does(|shared| list::turn_page(shared, 1)),
     Key::new(LONG_LISTS, "page-up", &[key(PageUp)], "page up").also("scroll").does(|shared| list::turn_page(shared, -1)),
+];
+
+/// The keys that repeat a change on what the cursor of the list or of the fields is on. In EDIT, a point
+/// begins to type a number.
+#[rustfmt::skip]
+pub(crate) const REPEAT: &[Row] = &[
+    Key::new(These(&[In(Mode::Select)]), "repeat", &[c('.')], "repeat the last change here").also("again").does(edit::repeat),
+    Key::new(These(EDIT), "repeat", &[alt(Char('.'))], "repeat the last change here").also("again").does(edit::repeat),
 ];
 
 /// The keys of the list of errors.

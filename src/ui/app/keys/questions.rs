@@ -16,6 +16,7 @@ const DELETE: Scope = These(&[Context::Delete]);
 const LEAVE: Scope = These(&[Context::Leave]);
 const MOVED_VIEW: Scope = These(&[Context::MovedView]);
 const WAIT: Scope = These(&[Context::Wait]);
+const SAVE_FIRST: Scope = These(&[Context::SaveFirst]);
 const OVERWRITE: Scope = These(&[Context::Overwrite]);
 const RECOVER: Scope = These(&[Context::Recover]);
 
@@ -32,7 +33,7 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(QUIT, "save", &[c('w')], "save and quit").requests(files::save_key),
     Key::new(QUIT, "write-view", &[c('S')], "write the moved view, save and quit").requests(files::save_view_key).when(Shared::is_view_unwritten),
     Key::new(QUIT, "back", &[c('n'), key(Esc)], "stay").requests(files::put_off),
-    Key::new(DELETE, "accept", &[c('y'), c('d')], "delete").does(select::delete_anyway),
+    Key::new(DELETE, "accept", &[c('y')], "delete").does(select::delete_anyway),
     Key::new(DELETE, "back", &[c('n'), key(Esc)], "keep").does(|shared| shared.overlays.dialog = None),
     Key::new(LEAVE, "accept", &[c('y')], "discard unsaved changes").requests(files::leave_anyway),
     Key::new(LEAVE, "save", &[c('w')], "save first").requests(files::save_key),
@@ -44,6 +45,8 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(WAIT, "save", &[c('w')], "wait, then quit").requests(files::save_key),
     Key::new(WAIT, "accept", &[c('y')], "quit now and cancel it").requests(files::leave_anyway),
     Key::new(WAIT, "back", &[c('n'), key(Esc)], "stay").requests(files::put_off),
+    Key::new(SAVE_FIRST, "save", &[c('y'), c('w')], "save and open the editor").requests(files::save_key),
+    Key::new(SAVE_FIRST, "back", &[c('n'), key(Esc)], "stay").requests(files::put_off),
     Key::new(OVERWRITE, "accept", &[c('y')], "overwrite it").requests(|shared| exports::answer_taken(shared, Existing::Overwritten)),
     Key::new(OVERWRITE, "no", &[c('n')], "write a numbered file instead").requests(|shared| exports::answer_taken(shared, Existing::Numbered)),
     Key::new(OVERWRITE, "back", &[key(Esc)], "cancel the export").requests(files::put_off),

@@ -40,6 +40,8 @@ pub struct Pictures {
     pub view: Option<Camera>,
     /// The user's render settings, which take precedence over the scene's.
     pub rendering: Rendering,
+    /// Those of them that the program was started with, for any scene.
+    asked: Rendering,
     /// The settings that were written into the text.
     pub(crate) written: Vec<SavedSetting>,
     /// Pixels in each cell.
@@ -111,12 +113,13 @@ impl Pictures {
     pub(crate) fn new(rendering: Rendering) -> Self {
         Self {
             rendering,
+            asked: rendering,
             ..Self::default()
         }
     }
 
-    /// Forgets the scene's pictures and its view; what pictures show, the user's render settings and the
-    /// grid stay.
+    /// Forgets the scene's pictures, its view, and what was set while it was seen; what pictures show, the
+    /// render settings that the program was started with, and the grid stay.
     pub(crate) fn renew(&mut self) {
         *self = Self {
             grid: self.grid,
@@ -127,7 +130,7 @@ impl Pictures {
             outline: self.outline,
             symbols: self.symbols,
             net: self.net,
-            ..Self::new(self.rendering)
+            ..Self::new(self.asked)
         };
     }
 

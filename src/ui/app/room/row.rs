@@ -9,6 +9,7 @@ pub(crate) struct Row<S = ()> {
     pub(crate) key: Key,
     step: Step<S>,
     acts: Acts<S>,
+    hint: fn(&S, &Shared) -> Option<&'static str>,
 }
 
 /// What keys do, with or without the room's state and effects.
@@ -55,6 +56,7 @@ impl Key {
             key: self,
             step,
             acts: Acts::Always,
+            hint: |_, _| None,
         }
     }
 }
@@ -72,6 +74,12 @@ impl<S> Row<S> {
         self
     }
 
+    /// Words its hint by what is true now; `None` leaves the words that it has.
+    pub(crate) const fn hinting(mut self, hint: fn(&S, &Shared) -> Option<&'static str>) -> Self {
+        self.hint = hint;
+        self
+    }
+
     /// Does what its keys do.
     pub(crate) fn act(&self, state: &mut S, shared: &mut Shared) -> Vec<Effect> {
         match self.step {
@@ -83,12 +91,14 @@ impl<S> Row<S> {
         Vec::new()
     }
 
-    /// Whether its keys would do something now.
-    pub(crate) fn acts(&self, state: &S, shared: &Shared) -> bool {
-        match self.acts {
+    /// Whether its keys would do something now, and the present words of its hint if they are not those
+    /// that it always has.
+    pub(crate) fn now(&self, state: &S, shared: &Shared) -> (bool, Option<&'static str>) {
+        let acts = match self.acts {
             Acts::Always => true,
             Acts::When(acts) => acts(shared),
             Acts::WhenIn(acts) => acts(state, shared),
-        }
+        };
+        (acts, (self.hint)(state, shared))
     }
 }

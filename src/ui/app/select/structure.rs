@@ -23,24 +23,36 @@ pub(super) fn toggle_mark(shared: &mut Shared) {
     shared.say(format!("{words} marked; {back} clears the marks"));
 }
 
-/// Deletes the targets; asks first if that changes others.
+/// Deletes the targets; asks first if that changes others, or if the selection has only come to them by
+/// deleting what was selected before: a key that is held or struck twice deletes one thing.
 pub(super) fn delete(shared: &mut Shared) {
     if shared.refuses_structure() {
         return;
     }
     let nodes = shared.targets();
-    match shared.source().consequence(&nodes) {
-        Some(_) => shared.overlays.dialog = Some(Dialog::Delete(nodes)),
-        None => delete_all(shared, &nodes),
+    if follows_deletion(shared) || shared.source().consequence(&nodes).is_some() {
+        shared.overlays.dialog = Some(Dialog::Delete(nodes));
+    } else {
+        delete_all(shared, &nodes);
     }
 }
 
-/// The question whether to delete nodes that others use.
+/// Whether nothing was changed, selected or marked since something was deleted.
+fn follows_deletion(shared: &Shared) -> bool {
+    let now = (shared.document.revision(), shared.cursor.selected());
+    shared.cursor.deleted == Some(now) && shared.cursor.marks.is_empty()
+}
+
+/// The question whether to delete nodes that others use, or one after the other.
 pub(crate) fn question_before_deleting(shared: &Shared, nodes: &[Node]) -> Question {
-    let consequence = shared.source().consequence(nodes).unwrap_or_default();
+    let name = shared.targets_name(nodes);
+    let text = match shared.source().consequence(nodes) {
+        Some(consequence) => format!("Delete {name}? {consequence}."),
+        None => format!("Delete {name} as well?"),
+    };
     Question {
         title: " Delete ",
-        text: format!("Delete {}? {consequence}.", shared.targets_name(nodes)),
+        text,
     }
 }
 
@@ -54,7 +66,12 @@ pub(crate) fn delete_anyway(shared: &mut Shared) {
 fn delete_all(shared: &mut Shared, nodes: &[Node]) {
     let name = shared.targets_name(nodes);
     let edits = shared.source().removal(nodes);
-    restructure(shared, edits, None, &format!("deleted: {name}"));
+    if restructured(shared, edits, None, &format!("deleted: {name}")) {
+        shared.cursor.deleted = Some((shared.document.revision(), shared.cursor.selected()));
+        let them = if nodes.len() == 1 { "it" } else { "them" };
+        let undo = shared.key_for("undo");
+        shared.say(format!("deleted: {name}; {undo} brings {them} back"));
+    }
 }
 
 /// Inserts copies of the targets after the last of them.
@@ -208,11 +225,15 @@ pub(super) fn toggle_visibility(shared: &mut Shared) {
         return;
     }
     shared.document.end_step();
-    let edits = shared.source().visibility_edits(&objects, wanted);
-    let outcome = edits.map_err(str::to_owned).and_then(|edits| {
-        let refused = text::try_step(shared, &edits);
-        refused.map_err(|refused| refused.message)
-    });
+    let edits = match shared.source().visibility_edits(&objects, wanted) {
+        Ok(edits) => edits,
+        // Nothing is wrong: that is what the language can say.
+        Err(reason) => {
+            shared.warn(reason);
+            return;
+        }
+    };
+    let outcome = text::try_step(shared, &edits).map_err(|refused| refused.message);
     let nodes: Vec<_> = objects.into_iter().map(Node::Object).collect();
     match outcome {
         Ok(()) => {
@@ -264,6 +285,20 @@ pub(crate) fn restructure(
     at: Option<usize>,
     done: &str,
 ) -> bool {
+    let is_done = restructured(shared, edits, at, done);
+    if is_done {
+        shared.say(done);
+    }
+    is_done
+}
+
+/// As [`restructure`], but says only why it is not done.
+fn restructured(
+    shared: &mut Shared,
+    edits: Result<Vec<Edit>, StructureError>,
+    at: Option<usize>,
+    done: &str,
+) -> bool {
     let outcome = edits.map_err(|refused| refused.to_string());
     let outcome = outcome.and_then(|edits| {
         let placed = at.and_then(|at| text::spans_after(&edits).get(at).copied());
@@ -278,7 +313,6 @@ pub(crate) fn restructure(
             }
             let selected = shared.source().name(shared.cursor.selected());
             shared.document.name_step(text::done(done, &selected));
-            shared.say(done);
             true
         }
         Err(reason) => {

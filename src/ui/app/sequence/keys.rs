@@ -32,7 +32,7 @@ const CAMERA: &[Context] = &[In(Mode::View), In(Mode::Fly)];
 /// The most useful first.
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Row<Sequence>] = &[
-    Key::new(SEQUENCE, "play", &[c(' ')], "play or stop").also("animation movie start run preview timeline playback loop stop").hint(0, "play").requests_in(toggle),
+    Key::new(SEQUENCE, "play", &[c(' ')], "play or stop").also("animation movie start run preview timeline playback loop stop").hint(0, "play").requests_in(toggle).hinting(|sequence, _| sequence.open.as_ref()?.is_playing.then_some("stop")),
     Key::new(SEQUENCE, "next-frame", &[c('l'), key(Right)], "next frame").also("step forward").hint(11, "frame").does_in(|sequence, shared| step_frames(sequence, shared, 1)),
     Key::new(SEQUENCE, "previous-frame", &[c('h'), key(Left)], "previous frame").also("step back rewind").hint(10, "frame").does_in(|sequence, shared| step_frames(sequence, shared, -1)),
     Key::new(SEQUENCE, "next-key", &[c(']')], "next key").also("keyframe").hint(21, "key").does_in(go_to_next_key),

@@ -65,17 +65,20 @@ pub(crate) fn track_read(
     let is_asked = sequence.asked.take_if(|asked| *asked == path).is_some();
     let text = match read {
         Ok(text) if is_asked || is_open => {
-            shared.overlays.end_complaint(About::Track);
+            forgive(sequence, shared, &path, None);
             if text.is_none() && !is_asked {
                 // Many programs move the old file away before the new one exists.
                 return Vec::new();
             }
             text
         }
-        Ok(_) => return Vec::new(),
+        Ok(text) => {
+            forgive(sequence, shared, &path, text.as_deref());
+            return Vec::new();
+        }
         Err(error) => {
             complain(shared, &error.to_string());
-            return refuse(sequence, &path);
+            return refuse(sequence, shared, &path);
         }
     };
     if let Some(open) = sequence.open_at(&path)
@@ -92,7 +95,7 @@ pub(crate) fn track_read(
     let (track, findings) = track::read(said);
     if 0 < findings.errors() {
         complain(shared, &complaint(&file_name(&path), said, &findings));
-        return refuse(sequence, &path);
+        return refuse(sequence, shared, &path);
     }
     if is_asked && !has_sound_scene(shared) {
         return follow_open(sequence, &path);
@@ -100,7 +103,7 @@ pub(crate) fn track_read(
     text::revert_transient(shared);
     if shared.error_count() == 0 && bind(shared, &track, &file_name(&path), said).is_none() {
         resume(sequence, shared);
-        return refuse(sequence, &path);
+        return refuse(sequence, shared, &path);
     }
     let before = sequence.open.take_if(|open| open.path == path);
     let is_known = before.is_some();
@@ -195,6 +198,10 @@ fn show(sequence: &mut Sequence, shared: &mut Shared, frame: u32) {
     } else {
         let text = open.held.clone().unwrap_or_default();
         let bound = bind(shared, &open.track, &open.name(), &text);
+        if bound.is_none() {
+            sequence.wrong = Some(open.path.clone());
+            sequence.judged = shared.document.revision();
+        }
         bound.map(|bound| (text::begin_transient(shared), bound))
     };
     let Some((mut transient, bound)) = shown else {
@@ -307,8 +314,42 @@ fn keep_frame(sequence: &mut Sequence, shared: &mut Shared) {
     text::keep_live_edit(shared);
 }
 
+/// Takes back what was said of a file that can be played again, or that no longer exists.
+fn forgive(sequence: &mut Sequence, shared: &mut Shared, path: &Path, text: Option<&str>) {
+    let is_wrong = sequence.wrong.as_deref() == Some(path);
+    if is_wrong && text.is_none_or(|text| can_play(shared, text)) {
+        sequence.wrong = None;
+        shared.overlays.end_complaint(About::Track);
+    }
+}
+
+/// Whether a text is a track of the present scene.
+fn can_play(shared: &Shared, text: &str) -> bool {
+    let (track, findings) = track::read(text);
+    let Some(scene) = shared.scene.as_ref().filter(|_| findings.errors() == 0) else {
+        return false;
+    };
+    let (_, findings) = track::bind(&track, shared.source(), &scene.camera);
+    findings.errors() == 0
+}
+
+/// Reads a file that cannot be played again once the scene's text has changed, which may be why. What
+/// was said of a file that no longer matters goes.
+pub(super) fn judge_again(sequence: &mut Sequence, shared: &mut Shared) -> Option<Effect> {
+    if sequence.wrong.is_none() && sequence.open.is_none() {
+        shared.overlays.end_complaint(About::Track);
+    }
+    let wrong = sequence.wrong.clone()?;
+    let revision = shared.document.revision();
+    let is_due = shared.transient.is_none() && sequence.judged != revision;
+    sequence.judged = revision;
+    is_due.then(|| Effect::ReadTrack(wrong))
+}
+
 /// Goes on with the open track after a file was read that cannot be played, its own or another.
-fn refuse(sequence: &mut Sequence, read: &Path) -> Vec<Effect> {
+fn refuse(sequence: &mut Sequence, shared: &Shared, read: &Path) -> Vec<Effect> {
+    sequence.wrong = Some(read.to_owned());
+    sequence.judged = shared.document.revision();
     if let Some(open) = sequence.open_at(read) {
         open.is_refused = true;
     }
@@ -322,9 +363,11 @@ fn follow_open(sequence: &Sequence, read: &Path) -> Vec<Effect> {
     again.filter(is_other).into_iter().collect()
 }
 
-/// Reads the open track again, if there is one and it is not being written.
+/// Reads the open track again, otherwise a file that could not be played, if there is one and it is not
+/// being written.
 pub(crate) fn reread(sequence: &Sequence) -> Option<Effect> {
-    let open = sequence.open.as_ref()?;
+    let open = sequence.open.as_ref().map(|open| &open.path);
+    let path = open.or(sequence.wrong.as_ref())?;
     let is_idle = sequence.writing.is_none();
-    is_idle.then(|| Effect::ReadTrack(open.path.clone()))
+    is_idle.then(|| Effect::ReadTrack(path.clone()))
 }

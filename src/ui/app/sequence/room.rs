@@ -21,6 +21,10 @@ impl Room for Sequence {
         }
     }
 
+    fn follow(&mut self, shared: &mut Shared) -> Vec<Effect> {
+        playing::judge_again(self, shared).into_iter().collect()
+    }
+
     fn press(&mut self, shared: &mut Shared, at: (u16, u16)) -> Option<Vec<Effect>> {
         if shared.mode != Mode::Sequence {
             return None;

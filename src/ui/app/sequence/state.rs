@@ -18,6 +18,10 @@ pub struct Sequence {
     pub open: Option<OpenTrack>,
     /// The track file that is being read in order to be opened.
     pub(crate) asked: Option<PathBuf>,
+    /// The file that cannot be read or played, as long as it cannot.
+    pub(crate) wrong: Option<PathBuf>,
+    /// The text's revision when that file was read last.
+    pub(crate) judged: u64,
     /// The text being written to the track file, and what to say once it is.
     pub(crate) writing: Option<(Arc<String>, String)>,
 }

@@ -27,6 +27,8 @@ pub enum AfterLeaving {
     New(Language),
     /// A copy of a scene that the program carries is opened.
     Carried(CarriedScene),
+    /// The editor is opened on the saved scene, which is left for it alone.
+    Editor,
 }
 
 impl AfterLeaving {
@@ -37,6 +39,7 @@ impl AfterLeaving {
             Self::Open(path) => format!("will open {}", file_name(path)),
             Self::New(_) => "will start a new scene".to_owned(),
             Self::Carried(carried) => format!("will open {}", carried.name),
+            Self::Editor => "will open the editor".to_owned(),
         }
     }
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use ratatui::layout::Rect;
 use tui_input::Input;
 
+use super::change::Change;
 use super::live_edit::LiveEdit;
 use super::rows::Rows;
 use crate::arrange::Areas;
@@ -66,6 +67,10 @@ pub struct Cursor {
     pub marks: BTreeSet<Node>,
     /// The text copied last.
     pub(crate) copied: Option<String>,
+    /// What the last change did.
+    pub(crate) changed: Option<Change>,
+    /// The text's revision after something was deleted by a key, and what was selected then.
+    pub(crate) deleted: Option<(u64, Node)>,
     /// The nodes of the text that the marks belong to.
     nodes: Nodes,
     /// What the list was filtered by last.
@@ -130,6 +135,8 @@ impl Default for Cursor {
             slide: None,
             marks: BTreeSet::new(),
             copied: None,
+            changed: None,
+            deleted: None,
             nodes: Nodes::default(),
             searched: String::new(),
             clicked: None,
@@ -169,6 +176,15 @@ impl Cursor {
             self.component = 0;
             self.field_top = 0;
             self.stand_on(node, source);
+        }
+    }
+
+    /// Selects the marked node above the selected one, if some are marked and it is not, so that the fields
+    /// are those that are set.
+    pub(crate) fn select_marked(&mut self, source: &Source) {
+        let before = self.marks.range(..=self.selected).next_back();
+        if let Some(&node) = before.or_else(|| self.marks.first()) {
+            self.select(node, source);
         }
     }
 

@@ -1,5 +1,5 @@
-//! A menu of what can be added, of kinds to change to, or of the values of a field: typing filters
-//! it.
+//! A menu of what can be added, of kinds to change to, of the values of a field, or of what to
+//! compare with: typing filters it.
 
 use super::filter::Filter;
 use super::live_edit::LiveEdit;
@@ -19,6 +19,8 @@ pub struct Menu {
     pub filter: Filter,
     /// The change of the text by the entry under the cursor; `None` if that waits for Enter.
     pub(crate) live_edit: Option<LiveEdit>,
+    /// Whether the entry under the cursor is the answer to the mode that asks.
+    pub(crate) is_answered: bool,
 }
 
 /// An entry of a menu.
@@ -41,6 +43,8 @@ pub enum Purpose {
     Retype,
     /// Sets the component under the cursor of the field with this name.
     Value(&'static str),
+    /// Answers COMPARE, which asks what to compare with.
+    Reference,
 }
 
 impl Entry {
@@ -64,6 +68,7 @@ impl Menu {
             offer: None,
             filter: Filter::at(present.unwrap_or(0)),
             live_edit: None,
+            is_answered: false,
         }
     }
 

@@ -52,6 +52,8 @@ pub struct Messages {
     past: VecDeque<Message>,
     /// What was said last about files that something is wrong with.
     pub(crate) complaints: BTreeMap<About, String>,
+    /// Whether the newest of them tells how something stands that still goes on.
+    is_passing: bool,
     /// Whether the message in the status line came in this step, so that nobody has seen it.
     pub(crate) is_unseen: bool,
     /// How long the message in the status line is worth showing.
@@ -81,8 +83,23 @@ impl Messages {
         self.waiting.len()
     }
 
+    /// Remembers how something stands, in place of how it stood before.
+    pub(crate) fn remember_passing(&mut self, message: &Message) {
+        if self.is_passing {
+            self.past.pop_front();
+        }
+        self.remember(message);
+        self.is_passing = true;
+    }
+
+    /// Keeps what was said last of something, which is over.
+    pub(crate) fn end_passing(&mut self) {
+        self.is_passing = false;
+    }
+
     /// Remembers a message.
     pub(crate) fn remember(&mut self, message: &Message) {
+        self.is_passing = false;
         if self.past.front() != Some(message) {
             self.past.push_front(message.clone());
             self.past.truncate(REMEMBERED);

@@ -3,6 +3,7 @@
 pub(crate) mod after_leaving;
 pub(crate) mod assets;
 pub(crate) mod buffer;
+pub(crate) mod change;
 pub(crate) mod cursor;
 pub(crate) mod disk;
 pub(crate) mod field_row;
@@ -151,6 +152,9 @@ impl Shared {
     /// entered now.
     pub(crate) fn enter(&mut self, mode: Mode) {
         self.document.end_step();
+        if mode == Mode::Edit {
+            self.cursor.select_marked(self.document.source());
+        }
         if mode.moves_camera() && self.scene.is_none() {
             self.refuse_picture(Severity::Error, &self.no_picture());
         } else if mode == Mode::Edit && self.cursor.fields().is_empty() {

@@ -220,6 +220,19 @@ impl Overlays {
         self.put(Lasts::UntilRead, severity, &text.into());
     }
 
+    /// Shows how something stands that goes on, in place of how it stood before, of which only the last
+    /// is remembered.
+    pub(crate) fn show_passing(&mut self, text: String) {
+        let message = Message {
+            severity: None,
+            text,
+        };
+        self.messages.remember_passing(&message);
+        self.message = Some(message);
+        self.messages.is_unseen = true;
+        self.messages.lasts = Lasts::UntilRead;
+    }
+
     /// Answers a key that does nothing. This is not remembered.
     pub(crate) fn answer(&mut self, text: String) {
         self.message = Some(Message {

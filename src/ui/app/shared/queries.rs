@@ -47,6 +47,7 @@ impl Shared {
     /// The context whose keys are active; keys typed into a line take precedence.
     pub fn context(&self) -> Context {
         match &self.overlays.dialog {
+            Some(Dialog::Leave(AfterLeaving::Editor)) => Context::SaveFirst,
             Some(Dialog::Leave(_)) if self.is_saved() && self.is_view_unwritten() => {
                 Context::MovedView
             }

@@ -46,11 +46,11 @@ scripts! {
             f | contrast reference | first 9
             f | contrast live | first 29
             w | contrast wipe | first 29
-            d | contrast difference | first 20
-            d | contrast difference ×4 | first 80
-            d | contrast difference ×16 | first 255
-            d | contrast heat map | first 251
-            d | contrast difference | first 20
+            c | contrast difference | first 20
+            c | contrast difference ×4 | first 80
+            c | contrast difference ×16 | first 255
+            c | contrast heat map | first 251
+            c | contrast difference | first 20
             h | contrast wipe | first 29
         ");
         let width = session.app.shared.raster().expect("there is room").0.width;
@@ -108,8 +108,6 @@ scripts! {
         ray().table(r"
             {1} | not does refer to | says {2} | mode SELECT
         ", r"
-            =                            | nothing to compare with: A pins the picture, :compare FILE loads one
-            :compare<Enter>              | nothing to compare with: A pins the picture, :compare FILE loads one
             A                            | cannot pin the picture: it is still being traced
             6A                           | a wireframe cannot be pinned: 1 shows a picture
             :compare git --help<Enter>   | --help is not a revision
@@ -119,6 +117,28 @@ scripts! {
             :compare HEAD<Enter>  | says this scene has no file yet: use :w FILE to create one
         ");
     };
+
+    without_a_reference_the_ways_to_one_are_offered: {
+        ray().table(r"
+            {1} | offers pin, saved, git, file … | not says | mode SELECT
+            {2} | {3} | text opened
+        ", r"
+            =               | dddd      | menu
+            :compare<Enter> | <Esc>     | not menu
+            =               | <Enter>   | says cannot pin the picture: it is still being traced
+            =               | sa<Enter> | does refer to scene.ray
+            =               | gi<Enter> | does refer to scene.ray at HEAD
+            =               | fi<Enter> | prompt :compare…
+        ");
+        previewed().play("=<Enter> | says pinned the preview… | not menu | > = | mode COMPARE");
+        ray().opened(|opening| opening.path = None).play("= | offers pin, file …");
+    };
+
+    /// What deletes where one came from does nothing here.
+    the_key_that_deletes_is_free_while_pictures_are_compared: previewed().play(r"
+        A=dddd | mode COMPARE | text opened
+        <Esc>  | mode SELECT  | text opened
+    ");
 
     the_command_names_files_the_saved_scene_and_revisions: ray().table(r"
         :compare {1}<Enter> | does once refer to | does refer to {2}

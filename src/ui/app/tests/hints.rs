@@ -26,6 +26,13 @@ scripts! {
         scene("scene.dat", dat::SCENE).play("[light 1] e | hints … nudge,… | not hints … step,…");
     };
 
+    a_hint_says_what_the_key_does_now: ray().play(r"
+        <F5>
+        @started full 1 | hints … pause,… | not hints … continue,…
+        <Space>          | hints … continue,… | not hints … pause,…
+        <Space>          | hints … pause,…
+    ");
+
     an_oblique_frame_hints_how_to_correct_it: ray()
         .but(r"sphere\n4 0 0\n1\n => box\n4 0 0 1 .1 0 0 1 0 0 0 1 1 1 1\n")
         .play(r"

@@ -30,6 +30,23 @@ scripts! {
         @elapsed message      | shown saved | not does wait message
     ");
 
+    of_an_amount_that_is_typed_the_last_is_remembered: ray().play(r"
+        [object 1] s1.25 | shown scale: ×1.25 | past scale: ×1.25
+        <Enter>          | shown scale: ×1.25 | past scale: ×1.25
+        s1.5<Enter>      | past scale: ×1.5; scale: ×1.25
+    ");
+
+    a_trace_that_ends_out_of_sight_says_so: ray().play(r"
+        <F5>
+        @started full 1
+        <Esc>
+        @frame full 1    | says the full-size trace is finished; F5 shows it
+
+        <F5>
+        @started full 1
+        @frame full 1    | not says
+    ");
+
     a_long_message_is_not_shown_forever: {
         let mut session = ray().session();
         session.run(&format!("@says {}", "x".repeat(5000)));

@@ -3,6 +3,7 @@
 use super::edit::try_edits;
 use crate::app::Shared;
 use crate::app::values::typed::Values;
+use language::schema::Field;
 use language::{FieldSpans, Node};
 use scene::Camera;
 use text::{Diagnostic, Edit, Span};
@@ -22,7 +23,36 @@ pub(crate) fn assign(shared: &mut Shared, values: &[Values]) -> Result<(), Diagn
     if shared.cursor.selected() == Node::View {
         return assign_view(shared, &wanted);
     }
-    try_edits(shared, &edits_of(shared, &unnumbered(&wanted)))
+    try_edits(shared, &edits_of(shared, &unnumbered(&wanted)))?;
+    say_marked(shared);
+    Ok(())
+}
+
+/// Says in how many of the marked nodes the current field was set, if there are several.
+pub(crate) fn say_marked(shared: &mut Shared) {
+    let marks = shared.cursor.marks.len();
+    let Some(field) = shared.cursor.current().map(|placed| placed.field) else {
+        return;
+    };
+    if !sets_marked(shared) || marks < 2 {
+        return;
+    }
+    let source = shared.source();
+    let has = |node: &&Node| placed_like(&source.fields(**node), field).is_some();
+    let set = shared.cursor.marks.iter().filter(has).count();
+    let key = field.key;
+    shared.overlays.show_passing(if set == marks {
+        format!("{key} set in all {marks} marked items")
+    } else {
+        format!("{key} set in {set} of {marks} marked items; the others have none")
+    });
+}
+
+/// The field of a node that is like one of another node.
+pub(crate) fn placed_like<'f>(fields: &'f [FieldSpans], field: &Field) -> Option<&'f FieldSpans> {
+    let is_like =
+        |placed: &&FieldSpans| placed.field.key == field.key && placed.field.kind == field.kind;
+    fields.iter().find(is_like)
 }
 
 /// Whether a field is set in all marked nodes, as the selected one is one of them.

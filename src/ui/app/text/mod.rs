@@ -9,10 +9,11 @@ mod naming;
 mod setting;
 mod transient;
 
-pub(crate) use assigning::{assign, edits_of, sets_marked};
+pub(crate) use assigning::{assign, edits_of, placed_like, say_marked, sets_marked};
 pub(crate) use conflicts::ask_conflict;
 pub(crate) use edit::{
-    assets_read, install, lowered, lowered_after, make_step, relower, spans_after, try_step,
+    assets_read, install, lowered, lowered_after, make_step, relower, spans_after, try_edits,
+    try_step,
 };
 pub(crate) use inputs::{follow_input, merge_input, note_before_input};
 pub(crate) use live_editing::{

@@ -25,7 +25,7 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(TRACE, "zoom-in", &[c('+')], "zoom in").also("magnify enlarge closer bigger").hint(0, "zoom").does(|shared| display::magnify(shared, 1)),
     Key::new(TRACE, "zoom-out", &[c('-')], "zoom out").also("shrink smaller whole").hint(0, "zoom").does(|shared| display::magnify(shared, -1)),
     Key::new(TRACE, "one-to-one", &[c('z')], "zoom to 1:1, or fit the picture").also("actual size 100% pixels fit").hint(20, "1:1").does(display::toggle_scale),
-    Key::new(TRACE, "pause", &[c(' ')], "pause or continue").also("resume hold wait").hint(30, "pause").requests(toggle_pause).when(|shared| shared.picture().is_awaited()),
+    Key::new(TRACE, "pause", &[c(' ')], "pause or continue").also("resume hold wait").hint(30, "pause").requests(toggle_pause).when(|shared| shared.picture().is_awaited()).hinting(|(), shared| shared.picture().paused.then_some("continue")),
     Key::new(TRACE, "region", &[c('R')], "draw a region to trace alone").also("crop part area rectangle window").hint(40, "region").does(start_region),
     Key::new(TRACE, "stop", &[c('x')], "stop").also("cancel abort end").hint(50, "stop").requests(stop).when(|shared| shared.picture().is_awaited()),
     Key::new(REGION, "corner-left", &[c('h'), key(Left)], "corner left").hint(0, "move the corner").does(|shared| move_corner(shared, -1, 0)),

@@ -8,4 +8,4 @@ mod tracing;
 pub(crate) use keys::KEYS;
 pub(crate) use regions::order_region;
 pub use room::Trace;
-pub(crate) use tracing::{recalled, start, trace_until};
+pub(crate) use tracing::{end_unseen, in_background, recalled, start, trace_until};

@@ -78,6 +78,26 @@ pub(super) fn enter(shared: &mut Shared) {
     shared.mode = Mode::Trace;
 }
 
+/// The full-size trace, if it is not complete and another picture is on screen.
+pub(crate) fn in_background(shared: &Shared) -> Option<&Picture> {
+    let trace = shared.pictures.trace.as_ref();
+    trace.filter(|trace| trace.is_awaited() && shared.seen() != Target::Trace)
+}
+
+/// Says that the full-size trace has become complete, if it is not on screen.
+pub(crate) fn end_unseen(shared: &mut Shared, was_awaited: bool) {
+    let is_over = was_awaited
+        && shared
+            .pictures
+            .trace
+            .as_ref()
+            .is_some_and(Picture::is_complete);
+    if is_over && shared.seen() != Target::Trace {
+        let trace = shared.key_for("trace");
+        shared.say(format!("the full-size trace is finished; {trace} shows it"));
+    }
+}
+
 /// Pauses the full-size trace, or goes on.
 pub(super) fn toggle_pause(shared: &mut Shared) -> Vec<Effect> {
     match &mut shared.pictures.trace {

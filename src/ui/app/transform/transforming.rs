@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::state::{Lock, Moving, Snap, Tool, Transform, decimals_of, round_up};
 use crate::app::refusing::Refusable;
+use crate::app::shared::change::Change;
 use crate::app::shared::line;
 use crate::app::{Shared, Stride, display, text};
 use crate::keymap::{Mode, types_amount};
@@ -25,6 +26,7 @@ pub(crate) fn start(moving: &mut Moving, shared: &mut Shared, tool: Tool) {
     let Some(transform) = begun(shared, tool).or_fail(shared) else {
         return;
     };
+    shared.overlays.messages.end_passing();
     shared.motion = Some(text::begin_live_edit(shared));
     *moving = Some(transform);
     shared.mode = Mode::Move;
@@ -205,9 +207,17 @@ pub(crate) fn confirm(moving: &mut Moving, shared: &mut Shared) {
         return;
     }
     match (moving.take(), shared.motion.take()) {
-        (Some(transform), Some(live_edit)) if live_edit.is_applied => shared.say(transform.words()),
+        (Some(transform), Some(live_edit)) if live_edit.is_applied => {
+            shared.cursor.changed = Some(Change::Moved {
+                motion: transform.motion(camera_axes(&transform.camera)),
+                decimals: transform.decimals(),
+                words: transform.words(),
+            });
+            shared.overlays.show_passing(transform.words());
+        }
         _ => shared.say("nothing has changed"),
     }
+    shared.overlays.messages.end_passing();
     text::keep_live_edit(shared);
     shared.mode = Mode::Select;
 }
@@ -239,7 +249,7 @@ fn change(moving: &mut Moving, shared: &mut Shared, change: impl FnOnce(&mut Tra
             let targets = shared.targets_name(&transform.nodes);
             shared.document.name_step(transform.step_name(&targets));
         }
-        shared.say(transform.words());
+        shared.overlays.show_passing(transform.words());
     }
     shared.motion = Some(live_edit);
 }

@@ -31,10 +31,13 @@ pub(super) fn sequence(app: &App, segments: &mut Segments) {
     };
     if app.shared.mode == Mode::Sequence {
         let playing = if open.is_playing { "▶ " } else { "" };
-        let text = format!(" {playing}frame {}/{} ", open.frame, open.last());
+        // Tracks number their frames from 0.
+        let (frame, place, count) = (open.frame, open.frame + 1, open.last() + 1);
+        let text = format!(" {playing}frame {frame} ({place}/{count}) ");
         segments.say(Rank::State, text, theme::chip(theme::ACCENT));
-    } else {
-        segments.say(Rank::Frame, format!("frame {}", open.frame), theme::DIM);
+    } else if let Some(key) = app.shared.keymap.key(app.shared.context(), "key") {
+        let text = format!("{key} keys frame {}", open.frame);
+        segments.say(Rank::Frame, text, theme::DIM);
     }
     if open.is_refused {
         segments.say(Rank::Notice, "[track refused]", theme::WARNING);

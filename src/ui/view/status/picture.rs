@@ -5,19 +5,35 @@ use std::time::Duration;
 use ratatui::style::Style;
 
 use super::segments::{Rank, Segments};
-use crate::app::{Shared, display};
+use crate::app::{Picture, Shared, display};
 use crate::theme;
 use render::Progress;
 use text::percentage;
 
-/// Adds the progress of the picture.
-pub(super) fn progress(progress: &Progress, segments: &mut Segments) {
+/// The progress of the full-size trace while another picture is on screen.
+pub(super) fn background(trace: &Picture) -> String {
+    let done = trace.progress().map_or(0.0, |progress| progress.done);
+    let paused = if trace.paused { " paused," } else { "" };
+    format!("trace{paused} {}", percent(done))
+}
+
+/// Adds the progress of the picture, whose scene asks for so many samples per pixel.
+pub(super) fn progress(progress: &Progress, asked: u32, segments: &mut Segments) {
     let seconds = progress.elapsed.as_secs_f64();
     if !progress.complete {
         let pass = format!("pass {}/{}", progress.pass, progress.passes);
         segments.say(Rank::Pass, pass, theme::DIM);
     }
-    segments.say(Rank::Samples, progress.samples(), Style::new());
+    if 0 < progress.spp {
+        let samples = progress.samples();
+        // Where some pixels take more than exports are asked for, that is the preview's doing.
+        let samples = if asked < progress.spp && progress.is_adaptive() {
+            format!("preview {samples}")
+        } else {
+            samples
+        };
+        segments.say(Rank::Samples, samples, Style::new());
+    }
     if !progress.complete {
         segments.say(Rank::Share, percent(progress.done), theme::ACCENT);
     }
@@ -35,7 +51,9 @@ pub(super) fn progress(progress: &Progress, segments: &mut Segments) {
     if 0.0 < seconds && 0 < progress.rays {
         let rate = progress.rays as f64 / seconds / 1e6;
         let digits = usize::from(rate < 10.0);
-        segments.say(Rank::Rate, format!("{rate:.digits$} Mray/s"), theme::DIM);
+        if 0.05 <= rate {
+            segments.say(Rank::Rate, format!("{rate:.digits$} Mray/s"), theme::DIM);
+        }
     }
     if 0 < progress.over_budget {
         let text = format!("{} over ray budget", progress.over_budget);

@@ -106,7 +106,7 @@ fn progress_is_shown_until_the_picture_is_complete() {
         Progress { pass: 3, passes: 6, complete: false, ..traced }
             => "pass 3/6 · 2 spp · 25 % · noise 1.3 % · 1.5 s · ETA 4.5 s · 14 Mray/s";
         traced => "2 spp · noise 1.3 % · 1.5 s · 14 Mray/s";
-        adaptive => "41 of 256 spp";
+        adaptive => "preview 41 of 256 spp";
     } {
         let mut app = app();
         let drawn = Frame::drawn(size(1, 1), vec![[0; 3]]);
@@ -128,6 +128,35 @@ fn the_scale_and_a_pause_are_told() {
     assert_eq!(line(&app), " TRACE  test.ray  whitted  fit");
     app.shared.picture_mut().paused = true;
     assert_eq!(line(&app), " TRACE  test.ray   PAUSED   whitted  fit");
+}
+
+#[test]
+fn a_trace_in_the_background_is_told_while_it_goes_on() {
+    let mut app = app();
+    let traced = Frame::drawn(size(1, 1), vec![[0; 3]]);
+    let mut trace = Picture::default();
+    trace.wanted = Some(traced.generation);
+
+    for (paused, complete, words) in [
+        (false, false, "  trace 45 %"),
+        (true, false, "  trace paused, 45 %"),
+        (false, true, ""),
+    ] {
+        let progress = Progress {
+            done: 0.45,
+            complete,
+            ..traced.progress
+        };
+        trace.take(Arc::new(Frame {
+            progress,
+            ..traced.clone()
+        }));
+        trace.paused = paused;
+        app.shared.pictures.trace = Some(trace);
+        let expected = format!(" SELECT  test.ray{words}  whitted");
+        assert_eq!(line(&app), expected);
+        trace = app.shared.pictures.trace.take().expect("it is there");
+    }
 }
 
 #[test]

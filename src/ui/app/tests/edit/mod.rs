@@ -5,5 +5,6 @@ mod fields;
 mod inputs;
 mod lines;
 mod nudging;
+mod repeating;
 
 use super::*;

@@ -158,7 +158,9 @@ scripts! {
     ");
 
     an_editor_is_not_opened_on_a_file_that_does_not_exist: new("new.ray").play(r"
-        E | not does | says new.ray is new: press w to write it, then E
+        E | not does | asks editor: new.ray is not written yet. Save and open the editor?
+        y | does save new.ray | not does edit
+        @saved | does edit new.ray…
     ");
 
     scenes_are_remembered_when_they_are_opened_and_saved_elsewhere: {

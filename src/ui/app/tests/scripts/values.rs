@@ -317,6 +317,9 @@ fn question(app: &App) -> String {
         Some(Dialog::Leave(AfterLeaving::Open(path))) => format!("open {}", path.display()),
         Some(Dialog::Leave(AfterLeaving::New(_))) => "new".to_owned(),
         Some(Dialog::Leave(AfterLeaving::Carried(carried))) => format!("open {}", carried.name),
+        Some(Dialog::Leave(next @ AfterLeaving::Editor)) => {
+            format!("editor: {}", files::question_before(shared, next).text)
+        }
         Some(Dialog::Conflict { merge, .. }) => {
             let each = merge.conflicts.iter().map(|conflict| {
                 let [base, mine, theirs] =

@@ -69,7 +69,7 @@ scripts! {
         .with("tree", "obj CSG ID 3 union ID 1 ID 2\n")
         .each(r"
         [object 1] dy   | becomes {first} => & {tree} => & 2 ID 3 ID 4 => 1 ID 4
-        [material 2] dd | becomes mat ID 2  1 0 0  .3 .5 .2 9  0 0 1\n => & {second} => & {tree} => & 2 ID 3 ID 4 => 1 ID 4
+        [material 2] dy | becomes mat ID 2  1 0 0  .3 .5 .2 9  0 0 1\n => & {second} => & {tree} => & 2 ID 3 ID 4 => 1 ID 4
         [object 1] R<Ctrl-u>9<Enter> | becomes sphere ID 1 => sphere ID 9 & union ID 1 => union ID 9
     ");
 
@@ -113,6 +113,18 @@ scripts! {
         n              | text opened | not asks
     ");
 
+    /// A key that is held deletes one thing; the next is asked about.
+    a_key_struck_again_deletes_one_thing: ray().play(r"
+        [object 1] dddd | nodes 7 | asks delete: Delete object 1 (…) as well?
+        n               | nodes 7 | not asks
+        dy              | nodes 6
+        // What was chosen since is meant.
+        kjd             | nodes 6 | asks
+        n
+        uu              | text opened
+        [object 1] djd  | nodes 6 | not asks
+    ");
+
     copied_text_goes_to_the_clipboard_and_pasted_text_becomes_things: ray()
         .with("copied", MOON.trim_end())
         .play(r"
@@ -124,10 +136,10 @@ scripts! {
 
     messages_about_marked_things_count_and_name_them: {
         ray().each(r"
-            [object 1] <Space>d        | says deleted: 1 marked item: object 1 (sphere)
-            [object 1] <Space><Space>d | says deleted: 2 marked items: object 1 (sphere), object 2 (sphere)
+            [object 1] <Space>d        | says deleted: 1 marked item: object 1 (sphere); u brings it back
+            [object 1] <Space><Space>d | says deleted: 2 marked items: object 1 (sphere), object 2 (sphere); u brings them back
             [object 1] <Space>jD       | says duplicated: 1 marked item: object 1 (sphere)
-            [object 1] d               | says deleted: object 1 (sphere)
+            [object 1] d               | says deleted: object 1 (sphere); u brings it back
         ");
         scene("scene.dat", DAT).play(r"
             [material 2] <Space>d      | asks delete: Delete 1 marked item: material 2…

@@ -73,7 +73,6 @@ scripts! {
             @note before text
             :{1}<Enter> | fault | mode SEQUENCE | frame 3 | plays | text before | not region
         ", r"
-            compare
             size 0x0
             set depth many
             mesh

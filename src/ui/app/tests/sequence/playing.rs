@@ -193,6 +193,24 @@ scripts! {
         track & the light => the lihgt | none
     ");
 
+    /// Also of one that was never open, by its own change, by one of the scene, or when that is left.
+    what_was_said_of_a_track_that_is_not_open_goes_with_its_cause: {
+        ray().with("track", TRACK).table(r"
+            T
+            @track track & 13 => 'x'  | shown scene.toml:…
+            @track-changed            | does track scene.toml
+            @track {1}                | not shown scene.toml:…
+        ", r"
+            track
+            none
+        ");
+        ray().with("track", TRACK).play(r"
+            T
+            @track track & the light => the lihgt | shown scene.toml:…
+            @file 1.5 => 1.7          | does track scene.toml
+        ");
+    };
+
     /// What is read of a track that is being written may be half of that.
     nothing_that_is_read_of_a_track_during_a_save_is_taken: playing().play(r"
         <Esc>ggjjj<Enter>I
