@@ -79,6 +79,19 @@ pub(crate) const fn chip(style: Style) -> Style {
         .add_modifier(Modifier::BOLD)
 }
 
+/// A style for a part of a row: in a row under the cursor only the ink of the part, so that all of the row
+/// keeps one background.
+pub(crate) fn within(row: Style, part: Style) -> Style {
+    if !row.add_modifier.contains(Modifier::REVERSED) {
+        return row.patch(part);
+    }
+    match part.fg {
+        // In reverse video the background is the ink; secondary text would be hard to read there.
+        Some(ink) if ink != Color::DarkGray => row.bg(ink),
+        _ => row,
+    }
+}
+
 /// The style of a message; `None` means success.
 pub(crate) const fn severity(severity: Option<Severity>) -> Style {
     match severity {
@@ -127,6 +140,8 @@ impl Theme {
         match (self, named) {
             // A grey that is legible on black.
             (Self::Dark, Color::DarkGray) => index(245),
+            // The red of many terminals is too dark for text.
+            (Self::Dark, Color::Red) => index(203),
             (Self::Light, Color::Cyan) => index(25),
             (Self::Light, Color::DarkGray) => index(242),
             (Self::Light, Color::Green) => index(28),
@@ -137,6 +152,15 @@ impl Theme {
             (Self::Mono, Color::Green) => (Color::Reset, none),
             (Self::Mono, Color::Red) => (Color::Reset, Modifier::BOLD.union(Modifier::UNDERLINED)),
             (_, other) => (other, none),
+        }
+    }
+
+    /// The theme whose dots stand out in a row with this style.
+    pub(crate) fn behind(self, row: Style) -> Self {
+        match self {
+            Self::Dark if row.add_modifier.contains(Modifier::REVERSED) => Self::Light,
+            Self::Light if row.add_modifier.contains(Modifier::REVERSED) => Self::Dark,
+            theme => theme,
         }
     }
 
@@ -209,13 +233,33 @@ mod tests {
     }
 
     #[test]
-    fn text_of_the_light_theme_is_legible_on_white() {
-        for style in STYLES {
-            let cell = shown(Theme::Light, style);
-            let ink = crate::terminal::colour_on_screen(cell.fg).expect("a colour");
-            let ratio = contrast(ink, [255, 255, 255]);
-            assert!(4.5 <= ratio, "{style:?}: {ratio}");
-            assert_eq!(cell.modifier, style.add_modifier);
+    fn text_is_legible_on_the_screens_that_themes_are_for() {
+        for (theme, screen) in [(Theme::Light, [255; 3]), (Theme::Dark, [0; 3])] {
+            for style in STYLES {
+                let cell = shown(theme, style);
+                let ink = crate::terminal::colour_on_screen(cell.fg).expect("a colour");
+                let ratio = contrast(ink, screen);
+                assert!(4.5 <= ratio, "{theme:?} {style:?}: {ratio}");
+                assert_eq!(cell.modifier, style.add_modifier);
+            }
+        }
+    }
+
+    #[test]
+    fn parts_of_a_row_under_the_cursor_share_its_background() {
+        let background = |style: Style| {
+            let cell = shown(Theme::Dark, style);
+            let is_reversed = cell.modifier.contains(Modifier::REVERSED);
+            if is_reversed { cell.fg } else { cell.bg }
+        };
+        for row in [CURSOR, Style::new()] {
+            for part in STYLES
+                .into_iter()
+                .chain([Style::new().fg(Color::Rgb(1, 2, 3))])
+            {
+                let part = within(row, part);
+                assert_eq!(background(part), background(row), "{part:?}");
+            }
         }
     }
 

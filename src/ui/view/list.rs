@@ -19,8 +19,8 @@ use scene::Rgb;
 /// The heading of the list.
 const TITLE: &str = "scene";
 
-/// Minimum width of a comment, in columns.
-const COMMENT: usize = 6;
+/// Minimum width of the words before what stands at the right edge, in columns.
+const LEAST: usize = 12;
 
 /// Draws the list with names and comments.
 pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
@@ -84,44 +84,125 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
         row.put(sign, style);
         let fold = fold_sign(shared, node);
         let swatch = swatch(shared, node);
-        match swatch {
-            // Not reversed with the selected line, so that the dot shows its own colour.
-            Some(colour) if is_drawn => row.put("● ", shared.theme.swatch(colour)),
-            Some(colour) => row.put("○ ", shared.theme.swatch(colour)),
-            None if let Some(sign) = fold => row.put(sign, style),
-            None if !is_drawn => row.put("○ ", style),
-            None => row.put("  ", style),
+        let (dot, ink) = match swatch {
+            Some(colour) => {
+                let dot = if is_drawn { "●" } else { "○" };
+                (dot, shared.theme.behind(style).swatch(colour))
+            }
+            None if let Some(sign) = fold => (sign, Style::new()),
+            None => (if is_drawn { " " } else { "○" }, Style::new()),
         };
-        let fold = fold.filter(|_| swatch.is_some()).unwrap_or_default();
-        let name = indented(shared, node, fold, usize::from(lines.width));
-        let mark = marked.iter().find(|(at, _)| *at == node);
-        let end = if mark.is_some() { "! " } else { "" };
-        let room = row.room().saturating_sub(end.len());
+        row.put(dot, theme::within(style, ink));
+        // The gap behind the dot has room for the mark.
+        match marked.iter().find(|(at, _)| *at == node) {
+            Some((_, mark)) => row.put("!", theme::within(style, *mark)),
+            None => row.put(" ", style),
+        };
+        let fold = fold.filter(|_| swatch.is_some());
+        put_name(
+            shared,
+            node,
+            fold,
+            usize::from(lines.width),
+            style,
+            &mut row,
+        );
+    }
+}
+
+/// Writes what a node is called: first the author's words, at the right edge the type and the number that
+/// messages call it by.
+fn put_name(
+    shared: &Shared,
+    node: Node,
+    fold: Option<&str>,
+    width: usize,
+    style: Style,
+    row: &mut Row,
+) {
+    let named = Named::of(shared, node);
+    let indent = (2 * shared.source().depth(node)).min(width / 3);
+    let fold = fold.map_or_else(String::new, |sign| format!("{sign} "));
+    let words = format!("{:indent$}{fold}{}", "", named.words);
+    let beside = named.beside.map(|beside| format!("  {}", visible(&beside)));
+    let beside = beside.unwrap_or_default();
+    let room = row.room();
+    let left = room.saturating_sub(words.width() + beside.width() + 2);
+    let tags = [named.tag.as_str(), named.number.as_str()].into_iter();
+    // The number is short enough to take the place of the last words.
+    let tag = tags
+        .clone()
+        .find(|tag| tag.width() <= left)
+        .or_else(|| tags.last());
+    let tag = tag.filter(|tag| !tag.is_empty() && tag.width() + LEAST <= room);
+    let end = tag.map_or(0, |tag| tag.width() + 1);
+    let before = room.saturating_sub(end);
+    row.put_in(&words, before, style);
+    let room = before.saturating_sub(words.width());
+    let beside = format!("{:room$}", shorten(&beside, room));
+    row.put_in(&beside, room, theme::within(style, theme::DIM));
+    if let Some(tag) = tag {
+        row.put(&format!(" {tag}"), theme::within(style, theme::DIM));
+    }
+}
+
+/// What a node is called in the list.
+struct Named {
+    /// The author's words if there are any, otherwise the program's.
+    words: String,
+    /// More of the author's words.
+    beside: Option<String>,
+    /// The program's words, if they are not the first.
+    tag: String,
+    /// The same in short.
+    number: String,
+}
+
+impl Named {
+    fn of(shared: &Shared, node: Node) -> Self {
+        let name = shared.source().name(node);
         let comment = shared.source().comment(node);
-        let comment = comment.filter(|_| name.width() + 2 + COMMENT <= room);
-        row.put_in(&name, room, style);
-        let room = room.saturating_sub(name.width());
-        let beside = comment.map_or_else(String::new, |comment| format!("  {}", visible(comment)));
-        let beside = format!("{:room$}", shorten(&beside, room));
-        row.put_in(&beside, room, style.patch(theme::DIM));
-        row.put(end, mark.map_or(style, |(_, mark)| style.patch(*mark)));
+        let comment = comment.map(|comment| visible(comment).into_owned());
+        let program = node.to_string();
+        let number = program.split_once(' ').map(|(_, number)| number.to_owned());
+        let (own, kind) = match name
+            .strip_suffix(')')
+            .and_then(|name| name.rsplit_once(" ("))
+        {
+            Some((own, kind)) => (own, Some(kind)),
+            None => (name.as_str(), None),
+        };
+        let number = number.filter(|_| own == program);
+        match (number, comment) {
+            (Some(number), Some(comment)) => Self {
+                words: comment,
+                beside: None,
+                tag: kind.map_or(program, |kind| format!("{kind} {number}")),
+                number,
+            },
+            (None, comment) if let Some(kind) = kind => Self {
+                words: own.to_owned(),
+                beside: comment,
+                tag: kind.to_owned(),
+                number: String::new(),
+            },
+            (_, beside) => Self {
+                words: name,
+                beside,
+                tag: String::new(),
+                number: String::new(),
+            },
+        }
     }
 }
 
 /// The sign of an object that holds others: whether they are listed.
 fn fold_sign(shared: &Shared, node: Node) -> Option<&'static str> {
     match node {
-        Node::Object(object) if shared.cursor.rows.is_folded(object) => Some("▸ "),
-        Node::Object(object) if shared.source().is_foldable(object) => Some("▾ "),
+        Node::Object(object) if shared.cursor.rows.is_folded(object) => Some("▸"),
+        Node::Object(object) if shared.source().is_foldable(object) => Some("▾"),
         _ => None,
     }
-}
-
-/// The name of a node after a sign, indented by two columns per level of nesting, up to a third of
-/// the width.
-fn indented(shared: &Shared, node: Node, sign: &str, width: usize) -> String {
-    let indent = (2 * shared.source().depth(node)).min(width / 3);
-    format!("{:indent$}{sign}{}", "", shared.source().name(node))
 }
 
 /// Nodes with diagnostics, styled by severity, the most severe first.
@@ -157,12 +238,15 @@ pub(super) fn swatch(shared: &Shared, node: Node) -> Option<Rgb> {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::app::App;
-    use crate::view::tests::{app, app_of, drawn, retype};
-    use language::{Language, Node};
+    use crate::theme::Theme;
+    use crate::view::tests::{app, app_of, drawn, retype, select};
+    use language::Language;
+    use ratatui::style::Color;
 
     fn lines(app: &App, width: u16) -> Vec<String> {
-        drawn(&app.shared, super::render, width, 9)
+        drawn(&app.shared, render, width, 9)
     }
 
     #[test]
@@ -178,8 +262,8 @@ mod tests {
             "  ● background",
             "  ● environment",
             "2 objects",
-            "  ▾ all (group)",
-            "  ●   ball (sphere)",
+            "  ▾ all                  group",
+            "  ●   ball              sphere",
         ];
         assert_eq!(lines(&app, 30)[1..8], listed);
     }
@@ -204,19 +288,59 @@ mod tests {
     }
 
     #[test]
-    fn a_comment_follows_the_name_if_there_is_room() {
+    fn the_words_of_the_author_come_first() {
         let mut app = app();
-        assert_eq!(lines(&app, 40)[7], "  ● object 1 (sphere)  the first");
+        assert_eq!(
+            lines(&app, 40)[7],
+            "  ● the first                   sphere 1"
+        );
+        assert_eq!(lines(&app, 24)[7], "  ● the first   sphere 1");
+        assert_eq!(lines(&app, 20)[7], "  ● the first      1");
+        assert_eq!(lines(&app, 12)[7], "  ● the fir…");
         retype(&mut app, "0 5 5   1 1 .5\n", "0 5 5 // sun\n1 1 .5\n");
         retype(&mut app, "box", "box // the\u{1b} large one\n");
-        assert_eq!(lines(&app, 32)[5], "  ● light 1  sun");
-        assert_eq!(lines(&app, 32)[8], "  ● object 2 (box)  the␛ large …");
+        assert_eq!(lines(&app, 32)[5], "  ● sun                  light 1");
+        assert_eq!(lines(&app, 32)[8], "  ● the␛ large one         box 2");
     }
 
     #[test]
     fn a_node_with_an_error_is_marked() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " -0.25 //");
-        assert_eq!(lines(&app, 26)[7], "  ● object 1 (sphere)   !");
+        assert_eq!(lines(&app, 26)[7], "  ●!the first     sphere 1");
+    }
+
+    /// The dot, the mark, the comment and the type keep the background of the row.
+    #[test]
+    fn the_selected_row_has_one_background() {
+        let mut app = app();
+        retype(&mut app, " 0.25 //", " -0.25 //");
+        retype(&mut app, "0 5 5   1 1 .5\n", "0 5 5   1 1 .5 // sun\n");
+        for (mode, node) in [
+            (Mode::Select, Node::Object(0)),
+            (Mode::Select, Node::Light(0)),
+            (Mode::Edit, Node::Object(0)),
+        ] {
+            select(&mut app, node);
+            app.shared.mode = mode;
+            for theme in Theme::ALL {
+                let mut buffer = Buffer::empty(Rect::new(0, 0, 40, 9));
+                render(&app.shared, buffer.area, &mut buffer);
+                theme.apply(&mut buffer);
+                let row = (1..9).find(|&y| buffer[(0, y)].symbol() == "▸");
+                let row = row.expect("the selected row is shown");
+                let background = |x: u16| {
+                    let cell = &buffer[(x, row)];
+                    let is_reversed = cell.modifier.contains(Modifier::REVERSED);
+                    if is_reversed { cell.fg } else { cell.bg }
+                };
+                assert!((0..40).all(|x| background(x) == Color::Reset), "{theme:?}");
+                let is_reversed = |x: u16| buffer[(x, row)].modifier.contains(Modifier::REVERSED);
+                assert!(
+                    (1..40).all(|x| is_reversed(x) == is_reversed(0)),
+                    "{theme:?}"
+                );
+            }
+        }
     }
 }

@@ -86,7 +86,8 @@ fn draw_entry(
     let mut row = Row::new(buffer, line, 0);
     row.put(sign, style);
     if let Some(colour) = entry.node.and_then(|node| swatch(shared, node)) {
-        row.put("●", shared.theme.swatch(colour));
+        let ink = shared.theme.behind(style).swatch(colour);
+        row.put("●", theme::within(style, ink));
     }
     row.skip_to(line.x + 2 + columns.dots);
     let words = line.x + 2 + columns.dots + columns.names as u16 + 2;
@@ -94,7 +95,7 @@ fn draw_entry(
     row.skip_to(words);
     let users = entry.node.and_then(|node| users(shared, node));
     match &users {
-        Some(users) if entry.words.is_empty() => row.put(users, style.patch(theme::DIM)),
-        _ => row.put(&entry.words, style.patch(theme::DIM)),
+        Some(users) if entry.words.is_empty() => row.put(users, theme::within(style, theme::DIM)),
+        _ => row.put(&entry.words, theme::within(style, theme::DIM)),
     };
 }
