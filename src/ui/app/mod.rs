@@ -66,6 +66,7 @@ pub use files::{Opening, OpeningText, Preferences};
 pub use history::{Rank, Thumbnail, Thumbnails};
 pub use inspect::{Inspect, Pixel, RayPanels};
 pub use modes::App;
+pub(super) use modes::ranked_hints;
 pub use pictures::Pictures;
 pub use pictures::cell_image::CellImage;
 pub use pictures::frame_window::{FrameWindow, Grid, Marked, Reason, Window};

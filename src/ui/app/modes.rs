@@ -7,7 +7,7 @@ use super::{
     View, camera, compare, display, edit, files, history, inspect, keys, samples, select, sequence,
     text, trace, transform,
 };
-use crate::keymap::{Entry, Key, Keymap, Mode, RowId};
+use crate::keymap::{Entry, Key, Keymap, Mode, RankedHint, RowId};
 use crate::msg::Effect;
 
 /// Declares the modes and pages that are rooms: the name of the state in [`App`], its type, and that of
@@ -212,12 +212,18 @@ impl App {
 
     /// The hints for the keys that do something now, the most useful first.
     pub fn hints(&self) -> Vec<Entry> {
-        let now = |id: RowId| row(id).map(|(rows, at)| rows.now(at, self));
-        let acts = |id: RowId| now(id).is_some_and(|(acts, _)| acts);
-        let words = |id: RowId| now(id).and_then(|(_, words)| words);
-        let context = self.shared.context();
-        self.shared.keymap.worded_hints(context, acts, words)
+        let hints = ranked_hints(self).into_iter();
+        hints.map(|hint| hint.entry).collect()
     }
+}
+
+/// The same hints, with what stays where there is no room for all.
+pub(crate) fn ranked_hints(app: &App) -> Vec<RankedHint> {
+    let now = |id: RowId| row(id).map(|(rows, at)| rows.now(at, app));
+    let acts = |id: RowId| now(id).is_some_and(|(acts, _)| acts);
+    let words = |id: RowId| now(id).and_then(|(_, words)| words);
+    let shared = &app.shared;
+    shared.keymap.worded_hints(shared.context(), acts, words)
 }
 
 #[cfg(test)]

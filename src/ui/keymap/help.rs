@@ -50,6 +50,15 @@ const MOUSE: [(&str, &str); 15] = [
 /// An input and its description.
 pub type Entry = (String, &'static str);
 
+/// A hint for keys that would do something.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RankedHint {
+    /// The keys and their effect.
+    pub entry: Entry,
+    /// Whether it stays where there is no room for all.
+    pub stays: bool,
+}
+
 impl Keymap {
     /// The keys that a mode has, in order of use: those with hints, then its own, then those that others
     /// have too. Of each row the first key, and one line for keys that differ in their direction.
@@ -127,7 +136,7 @@ impl Keymap {
 
     /// Returns the hints for a context in the words that they always have.
     #[cfg(test)]
-    pub fn hints(&self, context: Context, acts: impl Fn(RowId) -> bool) -> Vec<Entry> {
+    pub fn hints(&self, context: Context, acts: impl Fn(RowId) -> bool) -> Vec<RankedHint> {
         self.worded_hints(context, acts, |_| None)
     }
 
@@ -139,7 +148,7 @@ impl Keymap {
         context: Context,
         acts: impl Fn(RowId) -> bool,
         words: impl Fn(RowId) -> Option<&'static str>,
-    ) -> Vec<Entry> {
+    ) -> Vec<RankedHint> {
         let here = self.rows.iter().filter(|row| row.key.scope.holds(context));
         let mut own = here.clone().filter(|row| row.key.is_alone());
         let is_terse = own.any(|row| row.key.hint_of(context).is_some());
@@ -152,11 +161,16 @@ impl Keymap {
         });
         let mut hints: Vec<_> = hints.collect();
         hints.sort_by_key(|(hint, _)| hint.rank);
-        let mut entries: Vec<Entry> = Vec::new();
-        for (Hint { words, .. }, key) in hints {
+        let mut entries: Vec<RankedHint> = Vec::new();
+        for (Hint { words, stays, .. }, key) in hints {
             match entries.last_mut() {
-                Some((keys, last)) if *last == words => *keys = format!("{keys}/{key}"),
-                _ => entries.push((key, words)),
+                Some(last) if last.entry.1 == words => {
+                    last.entry.0 = format!("{}/{key}", last.entry.0);
+                }
+                _ => entries.push(RankedHint {
+                    entry: (key, words),
+                    stays,
+                }),
             }
         }
         entries
@@ -246,13 +260,14 @@ mod tests {
     #[test]
     fn every_hint_has_a_key() {
         for context in Context::all() {
-            for (keys, words) in Keymap::default().hints(context, |_| true) {
+            for hint in Keymap::default().hints(context, |_| true) {
+                let (keys, words) = hint.entry;
                 let whole = keys.split('/').all(|key| !key.is_empty());
                 assert!(keys == "/" || whole, "{context:?} {words}");
             }
         }
         let hints = Keymap::default().hints(Context::In(Mode::View), |_| true);
-        assert_eq!(hints[0], ("h/j/k/l".to_owned(), "orbit"));
+        assert_eq!(hints[0].entry, ("h/j/k/l".to_owned(), "orbit"));
     }
 
     #[test]
@@ -260,7 +275,7 @@ mod tests {
         let keymap = Keymap::default();
         let is_answer = |id: RowId| keymap.rows[id.0].key.name != "write-view";
         let hints = keymap.hints(Context::Quit, is_answer);
-        let keys: Vec<_> = hints.into_iter().map(|(keys, _)| keys).collect();
+        let keys: Vec<_> = hints.into_iter().map(|hint| hint.entry.0).collect();
         assert_eq!(keys, ["y", "w", "n"]);
     }
 }

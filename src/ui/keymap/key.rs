@@ -6,7 +6,7 @@ use super::context::{Context, Mode};
 use super::section::Section;
 
 /// The most hints of a row.
-const HINTS: usize = 5;
+const HINTS: usize = 6;
 
 /// A row of keys: within its scope, each of them does the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,6 +59,8 @@ pub(super) struct Hint {
     pub(super) rank: u8,
     /// A word or two. Neighbours with the same words are shown as one.
     pub(super) words: &'static str,
+    /// Whether it stays where there is no room for all.
+    pub(super) stays: bool,
 }
 
 impl Hint {
@@ -68,6 +70,7 @@ impl Hint {
             within: None,
             rank,
             words,
+            stays: false,
         }
     }
 }
@@ -133,7 +136,7 @@ impl Key {
         self.with(Hint::new(rank, words))
     }
 
-    /// Hints at it in these contexts. A row has at most five hints.
+    /// Hints at it in these contexts. A row has at most six hints.
     #[must_use]
     pub const fn hint_in(self, within: &'static [Context], rank: u8, words: &'static str) -> Self {
         self.with(Hint {
@@ -148,6 +151,21 @@ impl Key {
             at += 1;
         }
         self.hints[at] = Some(hint);
+        self
+    }
+
+    /// Keeps its last hint where others have no room.
+    #[must_use]
+    pub const fn stays(mut self) -> Self {
+        let mut at = HINTS;
+        while 0 < at {
+            at -= 1;
+            if let Some(mut hint) = self.hints[at] {
+                hint.stays = true;
+                self.hints[at] = Some(hint);
+                break;
+            }
+        }
         self
     }
 

@@ -19,7 +19,7 @@ pub(crate) use bindings::tests::bound;
 pub use bindings::{Keymap, Meaning, RowId, name};
 pub use chord::{Chord, Keys, alt, c, ctrl, key, key_named, key_names, shift};
 pub use context::{Context, Mode};
-pub use help::{Entry, Topic};
+pub use help::{Entry, RankedHint, Topic};
 pub use joined::HelpEntry;
 pub use key::{Key, Scope};
 pub use named_action::NamedAction;

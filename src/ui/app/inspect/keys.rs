@@ -31,7 +31,7 @@ const TRACE: &[Context] = &[In(Mode::Trace)];
 /// The most useful first.
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Row] = &[
-    Key::new(INSPECTABLE, "inspect", &[c('i')], "inspect a pixel of the picture").also("pixel probe pick color value eyedropper what why debug identify where click point hover coordinates rgb").hint_in(SELECT, 50, "inspect").hint_in(TRACE, 60, "inspect").does(start),
+    Key::new(INSPECTABLE, "inspect", &[c('i')], "inspect a pixel of the picture").also("pixel probe pick color value eyedropper what why debug identify where click point hover coordinates rgb").hint_in(SELECT, 50, "inspect").stays().hint_in(TRACE, 60, "inspect").does(start),
     Key::new(INSPECT, "cross-left", &[c('h'), key(Left)], "left").hint(0, "move").does(|shared| move_cross(shared, -1, 0)),
     Key::new(INSPECT, "cross-down", &[c('j'), key(Down)], "down").hint(0, "move").does(|shared| move_cross(shared, 0, 1)),
     Key::new(INSPECT, "cross-up", &[c('k'), key(Up)], "up").hint(0, "move").does(|shared| move_cross(shared, 0, -1)),

@@ -26,6 +26,7 @@ const PANELS: Scope = These(&[
     In(Mode::Sequence),
 ]);
 const TRACE: &[Context] = &[In(Mode::Trace)];
+const SELECT: &[Context] = &[In(Mode::Select)];
 const ERRORS: &[Context] = &[Context::Errors];
 /// Where the editor is worth a hint: it opens at what is under the cursor.
 const WITH_EDITOR: &[Context] = &[In(Mode::Inspect), Context::Rays, Context::Errors];
@@ -41,7 +42,6 @@ const LEAVABLE: &[Context] = &[
 ];
 /// Where the full-size trace is not on screen.
 const OUTSIDE_TRACE: &[Context] = &[
-    In(Mode::Select),
     In(Mode::Edit),
     In(Mode::View),
     In(Mode::Fly),
@@ -57,9 +57,9 @@ pub(crate) const KEYS: &[Row] = &[
     Key::new(Everywhere, "back", &[key(Esc)], "back").also("leave close cancel return escape").hint_in(LEAVABLE, 80, "back").hint_in(ERRORS, 80, "close").does(back::go_back),
     Key::new(Sceneless, "help", &[c('?')], "help").also("manual documentation shortcuts keys keybindings cheatsheet tutorial guide instructions howto hotkeys lost stuck bindings controls keyboard").lasting("help").does(|shared| shared.overlays.open_page(Page::reading(Context::Help))),
     Key::new(Sceneless, "command", &[c(':')], "command").also("palette menu actions").lasting("command").does(|shared| shared.open_palette_with("")),
-    Key::new(Everywhere, "save", &[c('w')], "save the scene").also("write store keep backup").hint(100, "save").requests(files::save_key).when(|shared| !shared.is_saved()),
-    Key::new(Everywhere, "export", &[c('b')], "export what is shown").also("screenshot image picture png jpg save render").hint(120, "export").requests(exports::export_default),
-    Key::new(Everywhere, "trace", &[key(F(5)), c('r')], "trace at full size").also("render final quality high resolution full start raytrace begin draw").hint_in(OUTSIDE_TRACE, 130, "trace").requests(trace::start),
+    Key::new(Everywhere, "save", &[c('w')], "save the scene").also("write store keep backup").hint(100, "save").stays().requests(files::save_key).when(|shared| !shared.is_saved()),
+    Key::new(Everywhere, "export", &[c('b')], "export what is shown").also("screenshot image picture png jpg save render").hint_in(SELECT, 120, "export").stays().hint(120, "export").requests(exports::export_default),
+    Key::new(Everywhere, "trace", &[key(F(5)), c('r')], "trace at full size").also("render final quality high resolution full start raytrace begin draw").hint_in(SELECT, 70, "trace").stays().hint_in(OUTSIDE_TRACE, 130, "trace").requests(trace::start),
 ];
 
 /// Keys used less often. Those that start a comparison are listed between these and [`KEYS`].
@@ -68,7 +68,7 @@ pub(crate) const OTHERS: &[Row] = &[
     Key::new(Everywhere, "undo", &[c('u')], "undo").also("revert back mistake oops restore wrong").hint(110, "undo").requests(history::undo).when(|shared| shared.document.undoable().is_some()),
     Key::new(Everywhere, "redo", &[ctrl('r')], "redo").also("again repeat forward").requests(history::redo),
     Key::new(Everywhere, "history", &[c('U')], "undo history as pictures").also("undo timeline past steps versions").does(history::list_steps),
-    Key::new(Everywhere, "errors", &[c('!')], "errors and warnings").also("problems warnings mistakes bugs issues diagnostics lint broken wrong").does(list::toggle_errors),
+    Key::new(Everywhere, "errors", &[c('!')], "errors and warnings").also("problems warnings mistakes bugs issues diagnostics lint broken wrong").hint_in(SELECT, 90, "errors").stays().does(list::toggle_errors).when(|shared| !shared.wrong().findings.is_empty()),
     Key::new(Sceneless, "messages", &[c('M')], "messages so far").also("log notifications output history console").does(|shared| shared.overlays.open_page(Page::reading(Context::Messages))),
     Key::new(Everywhere, "editor", &[c('E')], "open the editor at the selected item").also("vim emacs nano vscode text source code file external open").hint_in(WITH_EDITOR, 30, "editor").requests(files::open_editor),
     Key::new(PANELS, "panels", &[c('z')], "show or hide the panels").also("fullscreen sidebar hide maximize zen distraction big menu").does(panels::toggle_zoom),

@@ -21,7 +21,8 @@ const LISTS: Scope = PagesAnd(&[
 ]);
 /// What may have more lines than fit.
 const LONG_LISTS: Scope = PagesAnd(&[In(Mode::Select), Context::Errors, Context::Rays]);
-const MOVED: &[Context] = &[In(Mode::Select), Context::Errors, Context::Rays];
+const SELECT: &[Context] = &[In(Mode::Select)];
+const MOVED: &[Context] = &[Context::Errors, Context::Rays];
 const EDIT: &[Context] = &[In(Mode::Edit)];
 const COLOUR: &[Context] = &[Context::Colour];
 const PAGES: &[Context] = Context::PAGES;
@@ -31,10 +32,10 @@ const CONFLICT: &[Context] = &[Context::Conflict];
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Row] = &[
     Key::new(LISTS, "down", &[c('j'), key(Down)], "down").also("next below scroll navigate cursor")
-        .hint_in(MOVED, 0, "move").hint_in(EDIT, 0, "field").hint_in(COLOUR, 10, "row").hint_in(PAGES, 0, "down").hint_in(CONFLICT, 0, "down")
+        .hint_in(SELECT, 0, "select").hint_in(MOVED, 0, "move").hint_in(EDIT, 0, "field").hint_in(COLOUR, 10, "row").hint_in(PAGES, 0, "down").hint_in(CONFLICT, 0, "down")
         .does(|shared| list::move_cursor(shared, 1)),
     Key::new(LISTS, "up", &[c('k'), key(Up)], "up").also("previous above scroll navigate cursor")
-        .hint_in(MOVED, 0, "move").hint_in(EDIT, 0, "field").hint_in(COLOUR, 10, "row").hint_in(PAGES, 0, "up").hint_in(CONFLICT, 0, "up")
+        .hint_in(SELECT, 0, "select").hint_in(MOVED, 0, "move").hint_in(EDIT, 0, "field").hint_in(COLOUR, 10, "row").hint_in(PAGES, 0, "up").hint_in(CONFLICT, 0, "up")
         .does(|shared| list::move_cursor(shared, -1)),
     Key::in_turn(LONG_LISTS, "first", [c('g'), c('g')], "first").also("top beginning start home").does(|shared| list::move_cursor(shared, isize::MIN)),
     Key::new(LONG_LISTS, "last", &[c('G'), key(End)], "last").also("end bottom").does(|shared| list::move_cursor(shared, isize::MAX)),

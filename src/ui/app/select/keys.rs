@@ -22,7 +22,7 @@ const SELECT: Scope = These(HERE);
 /// The most useful first.
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Row] = &[
-    Key::new(SELECT, "edit", &[key(Enter), c('e')], "edit its fields").also("material color colour properties change texture attributes settings position size reflection transparency glass mirror shiny radius parameter intensity opacity alpha ior refraction specular diffuse emission roughness metal strength plastic wood surface").hint(10, "edit").does(|shared| shared.enter(Mode::Edit)).when(|shared| !shared.cursor.fields().is_empty()),
+    Key::new(SELECT, "edit", &[key(Enter), c('e')], "edit its fields").also("material color colour properties change texture attributes settings position size reflection transparency glass mirror shiny radius parameter intensity opacity alpha ior refraction specular diffuse emission roughness metal strength plastic wood surface").hint(10, "edit").stays().does(|shared| shared.enter(Mode::Edit)).when(|shared| !shared.cursor.fields().is_empty()),
     Key::new(SELECT, "camera", &[c('v')], "move the camera").also("viewpoint view orbit angle look perspective navigate rotate").hint(40, "camera").does(|shared| shared.enter(Mode::View)),
     Key::new(SELECT, "delete", &[c('d')], "delete").also("remove erase trash kill cut destroy clear").does(delete),
     Key::new(SELECT, "duplicate", &[c('D')], "duplicate").also("clone copy another").does(duplicate),

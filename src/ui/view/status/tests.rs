@@ -164,15 +164,40 @@ fn hints_for_help_commands_and_quitting_outlast_all_others() {
     let mut app = app();
     let hint = |app: &App, width| drawn(app, render_hint, width, 1).concat();
     for (width, shown) in [
-        (49, " j/k move  Enter edit  ? help  : command  q quit"),
-        (40, " j/k move     ? help  : command  q quit"),
-        (20, " ? : q"),
+        (
+            140,
+            " j/k select  Enter edit  a add  v camera  i inspect  / filter  F5 trace  b export",
+        ),
+        (80, " Enter edit  a add  i inspect  F5 trace  b export "),
+        (60, " Enter edit  i inspect  F5 trace  b export "),
+        (40, " Enter edit  i inspect"),
+        (20, ""),
     ] {
-        assert_eq!(hint(&app, width), shown);
+        let hint = hint(&app, width);
+        assert!(hint.starts_with(shown), "{width}: {hint}");
+        let end = if width < 80 {
+            " ? help  : q"
+        } else {
+            "? help  : command  q quit"
+        };
+        assert!(hint.ends_with(end), "{width}: {hint}");
     }
-    let wide = hint(&app, 80);
-    assert!(wide.starts_with(" j/k move  Enter edit"), "{wide}");
-    assert!(wide.ends_with("? help  : command  q quit"), "{wide}");
+    assert_eq!(hint(&app, 11).trim(), "? : q");
+    // What is unsaved and what is wrong take the place of what is less pressing.
+    retype(&mut app, " 0.25 //", " -0.25 //");
+    let pressing = [
+        "i inspect",
+        "F5 trace",
+        "b export",
+        "w save",
+        "! errors",
+        "? help",
+    ];
+    for width in [80, 76] {
+        let hint = hint(&app, width);
+        let is_shown = pressing.iter().all(|words| hint.contains(words));
+        assert!(is_shown, "{width}: {hint}");
+    }
     app.shared.cursor.typing = Some(Typing::default());
     assert!(hint(&app, 80).starts_with(" Enter keep  Esc cancel  Tab keep, next number"));
     assert_eq!(hint(&app, 30), " Enter keep  Esc cancel");
