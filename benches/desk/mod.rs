@@ -264,6 +264,8 @@ fn areas(zoom: Zoom) -> Areas {
         zoom,
         output: OUTPUT,
         fields: 0,
+        lines: 20,
+        explains: false,
         panels: PanelSizes::default(),
     };
     arrange(Rect::new(0, 0, TERMINAL.0, TERMINAL.1), &shape)

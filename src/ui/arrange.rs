@@ -32,6 +32,11 @@ pub struct Shape {
     /// Number of fields of the selected node: in a column, the list gets the lines that they do
     /// not need.
     pub fields: usize,
+    /// Number of lines of the whole list: the fields follow where it ends.
+    pub lines: usize,
+    /// Whether lines below the fields explain the current one. Otherwise, where room is short, the list
+    /// gets more of it.
+    pub explains: bool,
     /// The sizes of the panels that the user chose.
     pub panels: PanelSizes,
 }
@@ -95,6 +100,8 @@ pub struct Areas {
     pub list: Rect,
     /// The fields, starting with their title line.
     pub fields: Rect,
+    /// Whether lines below the fields explain the current one.
+    pub explains: bool,
     /// The errors, below the picture; empty unless [`Areas::make_room`] was called.
     pub errors: Rect,
     /// The line of key hints.
@@ -125,6 +132,12 @@ const LOW: u16 = 11;
 const LOWEST: u16 = 7;
 /// Minimum height of a list above fields.
 const LIST: u16 = 4;
+/// Height of a list with ten lines, which it gets before the fields' last lines.
+const LONG: u16 = 11;
+/// Height of a short list, over which menus and the colour picker have room.
+const MENU: u16 = 16;
+/// Width of a screen from which panels beside the picture are snug rather than narrow.
+const ROOMY_WIDTH: u16 = 72;
 
 /// An arrangement of picture and panels, with the width or height of the panels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -169,6 +182,7 @@ pub fn arrange(area: Rect, shape: &Shape) -> Areas {
         picture: body,
         hint,
         status,
+        explains: shape.explains,
         ..Areas::default()
     };
     if shape.zoom == Zoom::Picture || !fits(STACKED) {
@@ -319,8 +333,13 @@ fn beside(body: Rect, shape: &Shape) -> Option<u16> {
     if !is_roomy {
         return None;
     }
-    let (largest, _) = raster(split_right(body, SNUG + 1).0, shape.output)?;
-    Some((body.width - 1 - largest.width).clamp(SNUG, WIDE))
+    let least = if body.width < ROOMY_WIDTH {
+        NARROW
+    } else {
+        SNUG
+    };
+    let (largest, _) = raster(split_right(body, least + 1).0, shape.output)?;
+    Some((body.width - 1 - largest.width).clamp(least, WIDE))
 }
 
 /// The height of panels below the picture: the lines that a picture as wide as the screen leaves.
@@ -334,7 +353,13 @@ fn below(body: Rect, shape: &Shape, low: u16) -> u16 {
 fn side_by_side(bars: Areas, width: u16, shape: &Shape) -> Areas {
     let (left, panels) = split_right(bars.picture, width);
     let (picture, rule) = split_right(left, 1);
-    let (list, fields) = column(panels, shape);
+    let is_low = panels.height < LONG + LOW - 3;
+    let (list, fields) = if is_low && !shape.explains && shape.panels.list_height.is_none() {
+        // There is room for one of them.
+        (panels, Rect::default())
+    } else {
+        column(panels, shape)
+    };
     Areas {
         picture,
         rule,
@@ -376,17 +401,24 @@ fn stacked(bars: Areas, height: u16, shape: &Shape) -> Areas {
 /// Divides a column of panels: the list above the fields.
 fn column(panels: Rect, shape: &Shape) -> (Rect, Rect) {
     // Small field counts share one height, so that the list seldom moves with the cursor.
-    let wanted = u16::try_from(shape.fields).unwrap_or(u16::MAX);
-    let wanted = wanted.saturating_add(1 + NOTES).max(1 + ROOMY);
+    let fields = u16::try_from(shape.fields).unwrap_or(u16::MAX);
+    let wanted = fields.saturating_add(1 + NOTES).max(1 + ROOMY);
     let most = (panels.height * 2 / 3).max(15);
     let most = most.min(panels.height.saturating_sub(1 + LIST));
-    let height = match shape.panels.list_height {
-        Some(list) => {
-            let lowest = LOWEST.min(panels.height.saturating_sub(LIST));
-            let list = list.clamp(LIST, (panels.height - lowest).max(LIST));
-            panels.height.saturating_sub(list)
+    let height = if let Some(list) = shape.panels.list_height {
+        let lowest = LOWEST.min(panels.height.saturating_sub(LIST));
+        let list = list.clamp(LIST, (panels.height - lowest).max(LIST));
+        panels.height.saturating_sub(list)
+    } else {
+        let mut height = wanted.min(most);
+        if !shape.explains && panels.height.saturating_sub(height) < LONG {
+            let least = fields.saturating_add(1).min(LOWEST);
+            height = panels.height.saturating_sub(LONG).max(least).min(height);
         }
-        None => wanted.min(most),
+        // Below the end of a short list nothing is left empty.
+        let list = u16::try_from(shape.lines).unwrap_or(u16::MAX);
+        let list = list.saturating_add(1).max(MENU);
+        height.max(panels.height.saturating_sub(list))
     };
     split_bottom(panels, height)
 }

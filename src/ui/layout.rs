@@ -56,14 +56,21 @@ pub fn list_row_at(list: Rect, first: usize, column: u16, row: u16) -> Option<us
     is_inside.then(|| first + usize::from(row - lines.y))
 }
 
-/// The lines that show fields.
-pub fn field_rows(fields: Rect) -> Rect {
-    split_fields(fields).0
+/// The lines that show fields, and those below that explain the selected one, if it is explained.
+pub fn split_fields(fields: Rect, explains: bool) -> (Rect, Rect) {
+    let lines = contents(fields);
+    let notes = match lines.height {
+        _ if !explains => 0,
+        0..6 => 0,
+        6..ROOMY => 2,
+        _ => NOTES,
+    };
+    split_bottom(lines, notes)
 }
 
-/// The lines below the fields that explain the selected one.
-pub fn field_notes(fields: Rect) -> Rect {
-    split_fields(fields).1
+/// The lines that show fields.
+pub fn field_rows(fields: Rect, explains: bool) -> Rect {
+    split_fields(fields, explains).0
 }
 
 /// The cells of a field's name, including two for a sign and a gap at its end, and of each of its
@@ -73,7 +80,8 @@ pub fn field_columns(line: Rect, components: usize) -> (Rect, Vec<Rect>) {
     let key = (line.width / 3).clamp(6, widest).min(line.width);
     // The remainder of three equal columns widens the name.
     let key = (key + (line.width - key) % 3).min(widest);
-    let numbers = line.width - key;
+    // Numbers that stand far apart are not read as one value.
+    let numbers = (line.width - key).min(3 * WIDEST_NUMBER);
     let name = Rect { width: key, ..line };
     // Two components are as wide as two of three, so that numbers align in columns.
     let each = match components {
@@ -118,12 +126,12 @@ pub fn slider_cells(line: Rect, literal: &str) -> Option<Rect> {
 /// Returns the field and component under a cell, if `first` is the first field shown. `components`
 /// gives the number of components of each field. The name of a field counts as its first component.
 pub fn field_at(
-    fields: Rect,
+    (fields, explains): (Rect, bool),
     first: usize,
     components: impl Fn(usize) -> Option<usize>,
     at: (u16, u16),
 ) -> Option<(usize, usize)> {
-    let rows = field_rows(fields);
+    let rows = field_rows(fields, explains);
     let position = Position::new(at.0, at.1);
     if !rows.contains(position) {
         return None;
@@ -248,20 +256,13 @@ pub enum Side {
     Right,
 }
 
+/// Maximum width of one of three numbers, in columns.
+const WIDEST_NUMBER: u16 = 12;
+
 /// Number of lines that explain a field if there is room.
 pub const NOTES: u16 = 4;
 /// Minimum height of fields and notes together for all the notes to be shown.
 pub const ROOMY: u16 = 12;
-
-fn split_fields(fields: Rect) -> (Rect, Rect) {
-    let lines = contents(fields);
-    let notes = match lines.height {
-        0..6 => 0,
-        6..ROOMY => 2,
-        _ => NOTES,
-    };
-    split_bottom(lines, notes)
-}
 
 /// Splits off the `columns` columns on the right, or fewer if the area has fewer.
 pub fn split_right(area: Rect, columns: u16) -> (Rect, Rect) {
@@ -337,7 +338,7 @@ pub(super) mod tests {
         assert_eq!(list_row_at(list, 4, list.x, list.y), None, "the title");
         assert_eq!(list_row_at(list, 4, list.x, list.y + 2), Some(5));
         let components = |field| [3, 1].get(field).copied();
-        let click = |column, row| field_at(fields, 0, components, (column, row));
+        let click = |column, row| field_at((fields, true), 0, components, (column, row));
         assert_eq!(click(fields.x, fields.y + 1), Some((0, 0)), "the name");
         assert_eq!(click(fields.right() - 3, fields.y + 1), Some((0, 2)));
         assert_eq!(click(fields.right() - 3, fields.y + 2), Some((1, 0)));

@@ -212,7 +212,12 @@ fn press(shared: &mut Shared, at: (u16, u16)) -> Vec<Effect> {
     let fields = shared.cursor.fields();
     let components = |field: usize| Some(fields.get(field)?.field.kind.components());
     if shared.mode != Mode::Inspect
-        && let Some(clicked) = field_at(areas.fields, shared.cursor.field_top, components, at)
+        && let Some(clicked) = field_at(
+            (areas.fields, areas.explains),
+            shared.cursor.field_top,
+            components,
+            at,
+        )
     {
         return press_field(shared, clicked);
     }

@@ -9,6 +9,8 @@ const SHAPE: Shape = Shape {
     zoom: Zoom::Panels,
     output: size(800, 600),
     fields: 9,
+    lines: 99,
+    explains: true,
     panels: PanelSizes {
         beside: None,
         below: None,
@@ -148,7 +150,7 @@ proptest! {
     #[test]
     fn areas_are_inside_the_screen_and_disjoint(
         x in 0u16..5, y in 0u16..5, width in 0u16..220, height in 0u16..90, alone: bool,
-        fields in 0usize..40, output in (1u32..2000, 1u32..2000), errors in 0u16..20,
+        fields in 0usize..40, lines in 0usize..90, explains: bool, output in (1u32..2000, 1u32..2000), errors in 0u16..20,
         beside: Option<u16>, below: Option<u16>,
         list_height: Option<u16>, list_width: Option<u16>
     ) {
@@ -157,6 +159,8 @@ proptest! {
             zoom: if alone { Zoom::Picture } else { Zoom::Panels },
             output: size(output.0, output.1),
             fields,
+            lines,
+            explains,
             panels: PanelSizes { beside, below, list_height, list_width },
         };
         let all = arrange(area, &shape);
@@ -182,7 +186,7 @@ proptest! {
     ) {
         let shape = Shape { output: size(output.0, output.1), ..SHAPE };
         let all = arrange(screen((width, height)), &shape);
-        prop_assert!(8 <= field_rows(all.fields).height, "{all:?}");
+        prop_assert!(8 <= field_rows(all.fields, true).height, "{all:?}");
         prop_assert!(3 <= contents(all.list).height, "{all:?}");
         prop_assert!(59 > width || 26 <= all.list.width, "{all:?}");
     }

@@ -42,7 +42,7 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     row::title(&name, &right, focus, area, buffer);
 
     let fields = shared.fields();
-    let lines = layout::field_rows(area);
+    let (lines, notes) = layout::split_fields(area, focus == Focus::Here);
     let rows = usize::from(lines.height);
     let last = fields.len().saturating_sub(rows);
     let top = shared.cursor.field_top.min(last);
@@ -78,7 +78,14 @@ pub(crate) fn render(shared: &Shared, area: Rect, buffer: &mut Buffer) {
     if focus == Focus::Here
         && let Some(field) = fields.get(shared.cursor.field)
     {
-        explain(shared, field, layout::field_notes(area), buffer);
+        // Below the last field rather than far from it.
+        let shown = fields.len().saturating_sub(top) + shared.cursor.parts().len();
+        let y = lines.y
+            + u16::try_from(shown + 1)
+                .unwrap_or(u16::MAX)
+                .min(lines.height);
+        let height = notes.bottom().saturating_sub(y);
+        explain(shared, field, Rect { y, height, ..notes }, buffer);
     }
 }
 
@@ -305,8 +312,8 @@ mod tests {
         });
         let lines = lines(&app, 34);
         assert_eq!(lines[2], "▸radius    -3");
-        assert_eq!(lines[16], format!(" {error}"));
-        assert!(lines[17].starts_with(" a number greater than 0 · step"));
+        assert_eq!(lines[11], format!(" {error}"));
+        assert!(lines[12].starts_with(" a number greater than 0 · step"));
     }
 
     #[test]
@@ -317,7 +324,7 @@ mod tests {
             (2, " red: a number, usually from 0 to 1 · step"),
         ] {
             app.shared.cursor.field = field;
-            let line = &lines(&app, 50)[16];
+            let line = &lines(&app, 50)[11];
             assert!(line.starts_with(shown), "{line}");
         }
     }
@@ -332,7 +339,7 @@ mod tests {
         assert!(!lines[3].contains('!'), "{lines:#?}");
         assert!(lines[4].starts_with("▸kd"), "{lines:#?}");
         assert!(lines[4].contains("●!"), "{lines:#?}");
-        assert!(lines[16].contains("object 1 (sphere) kd red"), "{lines:#?}");
+        assert!(lines[11].contains("object 1 (sphere) kd red"), "{lines:#?}");
     }
 
     /// Other components stay, but a long value covers those after it.

@@ -20,7 +20,8 @@ pub(crate) fn slider(shared: &Shared, field: usize, line: Rect) -> Option<Rect> 
 
 /// Starts to drag the slider under a cell; returns whether there is one.
 pub(crate) fn press_slider(shared: &mut Shared, (column, row): (u16, u16)) -> bool {
-    let lines = field_rows(shared.areas().fields);
+    let areas = shared.areas();
+    let lines = field_rows(areas.fields, areas.explains);
     if !lines.contains((column, row).into()) {
         return false;
     }

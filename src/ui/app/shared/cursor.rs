@@ -337,7 +337,7 @@ impl Cursor {
 
     /// Scrolls so that the cursors are visible.
     pub(crate) fn scroll(&mut self, areas: &Areas, source: &Source) {
-        let fields = usize::from(layout::field_rows(areas.fields).height);
+        let fields = usize::from(layout::field_rows(areas.fields, areas.explains).height);
         let count = self.fields.len();
         self.field_top = layout::first_shown(self.field_top, self.field, count, fields);
         let rows = usize::from(layout::contents(areas.list).height);

@@ -265,6 +265,8 @@ impl Shared {
             zoom,
             output: self.framed(),
             fields: self.cursor.fields().len() + self.cursor.parts().len(),
+            lines: Listing::new(self.nodes(), None).len(),
+            explains: !matches!(self.mode, Mode::Select | Mode::Move),
             panels: self.panels,
         }
     }

@@ -17,11 +17,11 @@ scripts! {
     ");
 
     keys_and_mouse_divide_list_and_fields_and_the_sizes_are_kept: ray().play(r"
-        <Alt-}>           | panels …,26 | does keep panels
-        <Alt-{><Alt-{>    | panels …,24
-        @down screen 90,24
-        @drag screen 90,15 | not does keep panels
-        @up screen 90,15   | panels …,15 | does keep panels
+        <Alt-}>           | panels …,17 | does keep panels
+        <Alt-{><Alt-{>    | panels …,15
+        @down screen 90,15
+        @drag screen 90,12 | not does keep panels
+        @up screen 90,12   | panels …,12 | does keep panels
         j                 | not does keep panels
     ");
 
