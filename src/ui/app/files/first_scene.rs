@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use super::first_selected::first_selected;
 use super::outside;
 use super::polling::complain_of_polling;
 use super::reading::{announce_new, note_recent, watch};
@@ -26,7 +27,7 @@ use crate::theme::Theme;
 use ::text::{Findings, Severity};
 use document::{Document, Past};
 use file::ReadError;
-use language::{Language, Lowered, Node};
+use language::{Language, Lowered};
 use scene::Rendering;
 
 /// The initial settings of the interface.
@@ -189,9 +190,8 @@ pub(super) fn begin(shared: &mut Shared, lowered: Lowered) -> Vec<Effect> {
         announce_new(shared);
     }
     // The first change is more likely to be to an object than to the camera.
-    shared
-        .cursor
-        .select(Node::Object(0), shared.document.source());
+    let first = first_selected(shared);
+    shared.cursor.select(first, shared.document.source());
     let source = shared.document.source();
     shared.cursor.renew(source, Names::Changed);
     shared.scroll(&shared.areas());

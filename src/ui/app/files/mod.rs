@@ -2,6 +2,7 @@
 
 mod editor;
 mod first_scene;
+mod first_selected;
 mod keys;
 mod leaving;
 mod merging;

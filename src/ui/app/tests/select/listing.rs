@@ -1,5 +1,6 @@
 //! Showing a part of the list: filtering it and folding groups.
 
+use super::super::SCENE;
 use super::scripts::{scene, scripts};
 
 const RAY: &str = "\
@@ -37,7 +38,17 @@ pub(super) const XML: &str = "\
 const REST: &str = "render, view, ambient, light 1, light 2";
 
 scripts! {
-    the_list_is_filtered_while_typing: scene("a.ray", RAY)
+    the_object_in_the_middle_is_selected_at_first_rather_than_what_is_around_the_camera: {
+        scene("a.ray", SCENE).play("| at object 1");
+        let xml = "<xml><scene><object type='sphere' name='sky'><scale x='90' y='90' z='90'/></object>
+            <object type='sphere' name='ball'/></scene>
+            <camera><position z='9'/><target z='0'/></camera></xml>";
+        scene("a.xml", xml).play("| at object 2");
+        // Nothing is in the middle.
+        scene("a.ray", "0 0 0 0 0").play("| at ambient");
+    };
+
+    the_list_is_filtered_while_typing: scene("a.ray", RAY).after("ggjjjjj")
         .with("first", format!("{REST}, >object 1 (sphere), object 2 (box), object 3 (sphere)"))
         .with("second", format!("{REST}, object 1 (sphere), >object 2 (box), object 3 (sphere)"))
         .with("third", format!("{REST}, object 1 (sphere), object 2 (box), >object 3 (sphere)"))
@@ -71,7 +82,7 @@ scripts! {
         k<Left>  | list pair (group), >inner (group), a (sphere)
     ");
 
-    a_filter_follows_the_text: scene("a.ray", RAY).with("rest", REST).play(r"
+    a_filter_follows_the_text: scene("a.ray", RAY).after("ggjjjjj").with("rest", REST).play(r"
         /sphere<Enter>D | list object 1 (sphere), >object 2 (sphere), object 4 (sphere)
         d               | list object 1 (sphere), >object 3 (sphere)
         // Another type no longer matches; the next match is selected.
@@ -81,7 +92,7 @@ scripts! {
         d               | list {rest}, …
     ");
 
-    selecting_what_the_filter_hides_ends_it: scene("a.ray", RAY).with("rest", REST).play(r"
+    selecting_what_the_filter_hides_ends_it: scene("a.ray", RAY).after("ggjjjjj").with("rest", REST).play(r"
         /box<Enter> | list …object 2 (box)…
         [object 1]  | list {rest}, …
     ");

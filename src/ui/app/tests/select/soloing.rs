@@ -39,7 +39,7 @@ scripts! {
     };
 
     what_is_shown_alone_follows_the_selection_and_ends_with_its_indices: ray().play(r"
-        l
+        [object 1] l
         jl   | alone 1
         d    | does trace preview | not alone | not solo
         // The view ends it as well.
