@@ -56,11 +56,12 @@ pub(crate) fn panel(wrong: &Wrong, file: &str, area: Rect) -> Option<Panel> {
     let first = wrong.at.or(first_error)?;
     let width = usize::from(area.width.saturating_sub(2));
     let mut lines: Vec<(usize, StyledLine)> = Vec::new();
+    let gutter = gutter(wrong, first, usize::from(area.height));
     for (index, diagnostic) in wrong.findings.iter().enumerate().skip(first) {
         if usize::from(area.height) <= lines.len() {
             break;
         }
-        let mut own = describe(wrong.text, file, diagnostic, width);
+        let mut own = describe(wrong.text, file, diagnostic, (width, gutter));
         if wrong.at == Some(index) {
             let place = &mut own[0].0[0].1;
             *place = theme::chip(*place);
@@ -81,8 +82,22 @@ pub(crate) fn panel(wrong: &Wrong, file: &str, area: Rect) -> Option<Panel> {
 #[derive(Debug, Default)]
 pub(crate) struct StyledLine(pub(crate) Vec<(String, Style)>);
 
-/// Returns the lines of one diagnostic, starting with its position.
-fn describe(text: &str, file: &str, diagnostic: &Diagnostic, width: usize) -> Vec<StyledLine> {
+/// The digits of the largest line number of the diagnostics from one on, as far as there are lines to show
+/// them.
+fn gutter(wrong: &Wrong, first: usize, lines: usize) -> usize {
+    let shown = wrong.findings.iter().skip(first).take(lines);
+    let numbers = shown.map(|diagnostic| diagnostic.shown(wrong.text).position.line);
+    numbers.max().map_or(0, |line| line.to_string().len())
+}
+
+/// Returns the lines of one diagnostic, starting with its position, in a panel of this width with so many
+/// digits of line numbers.
+fn describe(
+    text: &str,
+    file: &str,
+    diagnostic: &Diagnostic,
+    (width, digits): (usize, usize),
+) -> Vec<StyledLine> {
     let mut lines = Vec::new();
     let style = theme::severity(Some(diagnostic.severity));
     let Shown {
@@ -102,7 +117,7 @@ fn describe(text: &str, file: &str, diagnostic: &Diagnostic, width: usize) -> Ve
         let wrapped = wrap(&message, width).into_iter();
         lines.extend(wrapped.map(|line| StyledLine(vec![(line, style)])));
     }
-    let number = line.to_string();
+    let number = format!("{line:>digits$}");
     let margin = " ".repeat(number.len());
     let room = width.saturating_sub(number.len() + 3);
     let shown = excerpt(text, span, room);

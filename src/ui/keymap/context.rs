@@ -11,6 +11,11 @@ macro_rules! modes {
         }
 
         impl Mode {
+    /// Whether what stands below the list is looked at in it as much as the list.
+    pub(crate) fn needs_more_than_the_list(self) -> bool {
+        !matches!(self, Self::Select | Self::Move)
+    }
+
             /// All modes, in the order of the help.
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$mode),+];
 

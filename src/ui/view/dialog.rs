@@ -15,8 +15,12 @@ use document::Merge;
 /// Minimum width of one side of a conflict, in columns.
 const SIDE: usize = 12;
 
-/// Draws the open question, if any.
-pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
+/// Width of a picture from which questions stay inside of it.
+const INSIDE: u16 = 40;
+
+/// Draws the open question, if any: inside the picture, if that is wide enough, so that the panels stay
+/// whole.
+pub(crate) fn render(app: &App, picture: Rect, area: Rect, buffer: &mut Buffer) {
     let shared = &app.shared;
     let question = match &shared.overlays.dialog {
         None => return,
@@ -29,6 +33,8 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         Some(Dialog::Overwrite(pending)) => exports::question_before_overwriting(pending),
         Some(Dialog::Recover(offer)) => files::question_about_kept(shared, offer),
     };
+    let is_wide = INSIDE <= picture.width;
+    let area = if is_wide { picture } else { area };
     ask(app, &question, area, buffer);
 }
 
@@ -171,16 +177,22 @@ fn one_line(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::app::{AfterLeaving, Dialog};
+    use super::*;
+    use crate::app::AfterLeaving;
     use crate::view::tests::{SCENE, app, ask, check_shown, drawn, retype};
     use document::Side;
+
+    /// Draws the question over a screen without panels.
+    fn question(app: &App, area: Rect, buffer: &mut Buffer) {
+        render(app, area, area, buffer);
+    }
 
     #[test]
     fn quitting_shows_what_would_be_lost_and_how_to_answer() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " 0.5 //");
         app.shared.overlays.dialog = Some(Dialog::Leave(AfterLeaving::Quit));
-        let lines = drawn(&app, super::render, 80, 24);
+        let lines = drawn(&app, question, 80, 24);
         let answers = ["y quit", "w save and quit", "n stay"];
         check_shown(&lines, &["test.ray has unsaved edits"]);
         check_shown(&lines, &answers);
@@ -204,7 +216,7 @@ mod tests {
             let mut app = app();
             retype(&mut app, SCENE, mine);
             ask(&mut app, theirs, decision);
-            let mut lines = drawn(&app, super::render, 100, 24);
+            let mut lines = drawn(&app, question, 100, 24);
             lines.retain(|line| line.contains('▸'));
             check_shown(&lines[..1], &parts);
         }

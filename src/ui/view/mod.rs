@@ -47,7 +47,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::terminal::Frame;
 
-use super::app::{App, Page, Shared};
+use super::app::{App, Page};
 use super::arrange::MIN_SIZE;
 use super::keymap::{Context, Mode};
 use super::{layout, theme};
@@ -86,7 +86,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
     }
     let left = picture::render(app, inks, areas.picture, buffer);
     let left = left.map(|cells| (cells, graphics_gap::left_in(cells, buffer)));
-    rule(&app.shared, areas.rule, buffer);
+    rule(areas.rule, buffer);
     tutor::render(app, areas.lesson, buffer);
     if app.shared.context() == Context::Rays {
         rays::render(&app.shared, buffer);
@@ -125,7 +125,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
     menu::render(&app.shared, areas.list, body, buffer);
     picker::render(&app.shared, inks, areas.list, body, buffer);
     completions::render(&app.shared, body, buffer);
-    dialog::render(app, body, buffer);
+    dialog::render(app, areas.picture, body, buffer);
     let (cells, count) = left?;
     (graphics_gap::left_in(cells, buffer) == count).then_some(cells)
 }
@@ -140,14 +140,10 @@ fn render_page(app: &App, page: &Page, inks: &mut Inks, area: Rect, buffer: &mut
     }
 }
 
-/// Draws the line between columns, which makes a stale picture obvious.
-fn rule(shared: &Shared, area: Rect, buffer: &mut Buffer) {
-    let style = match shared.error_count() {
-        0 => theme::DIM,
-        _ => theme::WARNING,
-    };
+/// Draws the line between columns.
+fn rule(area: Rect, buffer: &mut Buffer) {
     for position in area.positions() {
-        row::put_at(position, "│", style, buffer);
+        row::put_at(position, "│", theme::DIM, buffer);
     }
 }
 

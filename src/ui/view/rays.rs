@@ -55,7 +55,7 @@ fn tree(shared: &Shared, area: Rect, verdict: Rect, lines: Rect, buffer: &mut Bu
     };
     for (index, words) in (0..).zip(inspect::verdict_lines(shared, verdict.width)) {
         let mut row = Row::new(buffer, verdict, index);
-        row.skip(1).put(&words, theme::WARNING);
+        row.skip(1).put(&words, theme::WARNING.patch(theme::BOLD));
     }
     let shown = inspect::ray_lines(shared).into_iter().enumerate();
     let shown = shown.skip(explained.top);

@@ -440,6 +440,7 @@ fn a_message_longer_than_the_status_line_is_shown_in_full() {
 fn the_changes_in_recovered_edits_are_counted() {
     let shown = |kept: &str, follow: fn(Offer) -> Offer| {
         let mut app = app();
+        app.shared.zoom = Zoom::Picture;
         let text = app.shared.document.shared_text();
         let offer = follow(offer(Language::Ray, &text, SCENE, kept));
         app.shared.overlays.dialog = Some(Dialog::Recover(Box::new(offer)));

@@ -266,7 +266,7 @@ impl Shared {
             output: self.framed(),
             fields: self.cursor.fields().len() + self.cursor.parts().len(),
             lines: Listing::new(self.nodes(), None).len(),
-            explains: !matches!(self.mode, Mode::Select | Mode::Move),
+            explains: self.mode.needs_more_than_the_list(),
             panels: self.panels,
         }
     }
