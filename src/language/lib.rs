@@ -50,6 +50,7 @@ use std::ops::{Deref, DerefMut};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use glam::DVec3;
 use losses::Losses;
 use memory::OutOfMemory;
 use memory_estimate::Counts;
@@ -74,7 +75,7 @@ pub use structure::{
 
 /// Declares the languages, one per line, by folder name and file extension. A folder
 /// provides `Source`, `errors_of_beginning`, `tree_bytes`, `write`, `LEAVES_KEEP_TO_LINES`,
-/// `LOWERS_CHANGES`, `TEMPLATE` and `SKELETON`.
+/// `LOWERS_CHANGES`, `VERTICAL`, `TEMPLATE` and `SKELETON`.
 macro_rules! languages {
     ($($(#[$doc:meta])* $name:ident in $folder:ident as $extension:literal,)+) => {
         /// The supported scene languages.
@@ -112,6 +113,13 @@ macro_rules! languages {
             pub const fn leaves_keep_to_lines(self) -> bool {
                 match self {
                     $(Self::$name => $folder::LEAVES_KEEP_TO_LINES,)+
+                }
+            }
+
+            /// The axis that points up in most of its scenes: y or z.
+            pub const fn vertical(self) -> DVec3 {
+                match self {
+                    $(Self::$name => $folder::VERTICAL,)+
                 }
             }
 

@@ -52,6 +52,7 @@ impl Source {
         let wish = NewNode {
             centre: DVec3::ZERO,
             half: 1.0,
+            up: self.language().vertical(),
             decimals: 2,
             after: Node::View,
             marked: &[],

@@ -167,12 +167,19 @@ pub struct Addition {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Shape {
     Own,
+    Flat,
     File,
 }
 
 impl Addition {
     pub(super) const fn new(name: &'static str, words: &'static str) -> Self {
         let shape = Shape::Own;
+        Self { name, words, shape }
+    }
+
+    /// A kind of thing without a height.
+    pub(super) const fn flat(name: &'static str, words: &'static str) -> Self {
+        let shape = Shape::Flat;
         Self { name, words, shape }
     }
 
@@ -186,6 +193,11 @@ impl Addition {
     pub fn needs_file(&self) -> bool {
         self.shape == Shape::File
     }
+
+    /// Whether it is as high as its centre, instead of half its extent above and below that.
+    pub fn is_flat(&self) -> bool {
+        self.shape == Shape::Flat
+    }
 }
 
 /// Where to add a thing, and how large.
@@ -195,7 +207,9 @@ pub struct NewNode<'a> {
     pub centre: DVec3,
     /// Half its extent, above 0.
     pub half: f64,
-    /// The number of decimals that a cell of the picture can show.
+    /// The axis of the world along which solids of revolution stand: y or z.
+    pub up: DVec3,
+    /// The number of decimals that its numbers need at most.
     pub decimals: usize,
     /// The selected node: the new one stands after it, and takes its material.
     pub after: Node,

@@ -70,7 +70,7 @@ pub use sampling::Densities;
 pub use simd_level::{CPU_LEVEL_VARIABLE, CPU_LEVELS, simd_level_name};
 pub use world::{
     SurfacePoint, camera_axes, distance_to_surface, pixel_width, project_line, project_point,
-    surface_under,
+    summit, surface_under, surrounds, top_at,
 };
 
 #[cfg(test)]

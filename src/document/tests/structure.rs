@@ -105,6 +105,7 @@ fn change(source: &Source, random: &mut Random, side: &str) -> Option<Vec<Edit>>
             let wish = NewNode {
                 centre: DVec3::splat(random.below(9) as f64 + 0.25),
                 half: 0.5,
+                up: DVec3::Z,
                 decimals: 2,
                 after: node,
                 marked: &[],

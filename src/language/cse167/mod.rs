@@ -23,6 +23,7 @@ use crate::structure::{Addition, NewNode, Placement};
 use crate::view::{Numbers, line_ending};
 use crate::written::Parse;
 use crate::{Lowered, Node, StructureError};
+use glam::DVec3;
 use lower::Own;
 use scene::{Camera, Rendering};
 use schema::SCHEMA;
@@ -38,6 +39,9 @@ pub(super) const LEAVES_KEEP_TO_LINES: bool = true;
 
 /// Whether changed objects can be lowered alone.
 pub(super) const LOWERS_CHANGES: bool = false;
+
+/// The axis that points up in most of its scenes.
+pub(super) const VERTICAL: DVec3 = DVec3::Y;
 
 /// A small valid scene to begin with.
 pub(super) const TEMPLATE: &str = include_str!("template.test");

@@ -156,7 +156,7 @@ pub(super) fn light_as(source: &Source, light: Node, kind: &str) -> Vec<Edit> {
 
 /// The records of a new solid, with a material if there is none.
 fn solid(source: &Source, kind: &str, wish: &NewNode<'_>) -> Result<String, StructureError> {
-    let form = Form::upright(wish.centre, wish.half, DVec3::Z);
+    let form = Form::upright(wish.centre, wish.half, wish.up);
     // Coefficients cancel each other far from the origin; only what rounding added is left out.
     let precise = |number: f64| {
         let rounded = format!("{number:.12e}").parse().unwrap_or(number);

@@ -38,6 +38,9 @@ pub(super) const LEAVES_KEEP_TO_LINES: bool = true;
 /// Whether changed objects can be lowered alone.
 pub(super) const LOWERS_CHANGES: bool = false;
 
+/// The axis that points up in most of its scenes.
+pub(super) const VERTICAL: DVec3 = DVec3::Z;
+
 /// A small valid scene to begin with.
 pub(super) const TEMPLATE: &str = include_str!("template.dat");
 

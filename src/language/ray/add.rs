@@ -36,7 +36,7 @@ pub(super) fn addition(
     let text = if let Some(kind) = ShapeKind::of_word(name) {
         // A solid of revolution stands; the frame of another is the world's.
         let axis = match kind {
-            ShapeKind::Cylinder | ShapeKind::Cone => DVec3::Y,
+            ShapeKind::Cylinder | ShapeKind::Cone => wish.up,
             ShapeKind::Sphere | ShapeKind::Ellipsoid | ShapeKind::Box => DVec3::Z,
         };
         let form = Form::upright(wish.centre, wish.half, axis);

@@ -23,6 +23,7 @@ mod view_comment;
 mod write;
 
 use super::written::Written;
+use glam::DVec3;
 use origins::Origins;
 use text::Findings;
 use tree::Tokens;
@@ -38,6 +39,9 @@ pub(super) const LEAVES_KEEP_TO_LINES: bool = true;
 
 /// Whether changed objects can be lowered alone.
 pub(super) const LOWERS_CHANGES: bool = true;
+
+/// The axis that points up in most of its scenes.
+pub(super) const VERTICAL: DVec3 = DVec3::Y;
 
 /// A small valid scene to begin with.
 pub(super) const TEMPLATE: &str = include_str!("template.ray");

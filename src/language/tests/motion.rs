@@ -41,6 +41,7 @@ fn wish(after: Node, marked: &[Node]) -> NewNode<'_> {
     NewNode {
         centre: DVec3::new(0.25, 0.5, 1.0),
         half: 0.5,
+        up: DVec3::Z,
         decimals: 2,
         after,
         marked,

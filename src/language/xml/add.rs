@@ -13,7 +13,7 @@ use text::Edit;
 /// The kinds of things that can be added.
 pub(super) const ADDITIONS: &[Addition] = &[
     Addition::new("sphere", "round; scaled, an ellipsoid"),
-    Addition::new("plane", "a square that ends at its edges"),
+    Addition::flat("plane", "a square that ends at its edges"),
     Addition::of_file("mesh", "triangles from an .obj file"),
     Addition::new("group", "moves and turns the objects in it"),
     Addition::new("point light", "shines in all directions"),

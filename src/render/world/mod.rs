@@ -11,6 +11,7 @@ mod picking;
 mod projection;
 mod shading_point;
 mod spheres;
+mod standing;
 mod structures;
 mod surfaces;
 
@@ -22,6 +23,7 @@ pub use picking::{
     surface_under,
 };
 pub(crate) use projection::Projection;
+pub use standing::{summit, surrounds, top_at};
 #[cfg(test)]
 pub(crate) use structures::Search;
 pub(crate) use structures::{Structures, instances};

@@ -73,6 +73,7 @@ fn what_is_added_stands_where_nothing_stretches_it() {
     let wish = |after| NewNode {
         centre: DVec3::new(1.0, 2.0, 3.0),
         half: 0.5,
+        up: DVec3::Z,
         decimals: 2,
         after,
         marked: &[],

@@ -2,18 +2,12 @@
 
 use std::path::Path;
 
-use glam::DVec3;
-
+use super::standing::place_for_new;
 use super::structure::{place, restructure};
-use crate::app::shared::inspection::Cross;
 use crate::app::shared::menu::{Entry, Menu, Purpose};
-use crate::app::{Shared, Tool, inspect, transform};
+use crate::app::{Shared, Tool, transform};
 use crate::keymap::Mode;
 use language::{NewNode, Node};
-use render::{distance_to_surface, pixel_width, surface_under};
-
-/// The fraction of the picture's height that a new thing takes up.
-const SHARE: f64 = 0.2;
 
 /// Opens the menu of what can be added.
 pub(super) fn open_additions(shared: &mut Shared) {
@@ -56,8 +50,8 @@ pub(crate) fn own_kind(shared: &Shared, node: Node) -> Option<&'static str> {
     kinds.find(|kind| name.ends_with(&format!("({kind})")) || written.contains(kind))
 }
 
-/// Adds a thing on the surface looked at, otherwise at the camera's target; in an empty text, a
-/// minimal scene with it.
+/// Adds a thing that stands on the surface looked at, otherwise below the camera's target or there; in an
+/// empty text, a minimal scene with it.
 pub(crate) fn add(shared: &mut Shared, name: &str) {
     let mut additions = shared.source().additions().iter();
     if additions.any(|addition| addition.name == name && addition.needs_file()) {
@@ -86,6 +80,7 @@ pub(crate) fn add_mesh(shared: &mut Shared, file: Option<&Path>) {
 /// Adds something of this name; returns whether that could be done.
 fn add_with(shared: &mut Shared, name: &str, file: Option<&str>) -> bool {
     let done = format!("added: {name}");
+    let mut on = None;
     let is_done = if shared.source().is_blank() {
         let first = shared.source().first(name);
         let node = first.as_ref().ok().map(|&(_, node)| node);
@@ -96,11 +91,15 @@ fn add_with(shared: &mut Shared, name: &str, file: Option<&str>) -> bool {
         is_done
     } else {
         let marked: Vec<_> = shared.cursor.marks.iter().copied().collect();
-        let (centre, half, decimals) = place_for_new(shared);
+        let mut additions = shared.source().additions().iter();
+        let is_flat = additions.any(|addition| addition.name == name && addition.is_flat());
+        let found = place_for_new(shared, is_flat);
+        on = found.on.map(|node| shared.source().name(node));
         let wish = NewNode {
-            centre,
-            half,
-            decimals,
+            centre: found.centre,
+            half: found.half,
+            up: found.up,
+            decimals: found.decimals,
             after: shared.cursor.selected(),
             marked: &marked,
             file,
@@ -109,9 +108,24 @@ fn add_with(shared: &mut Shared, name: &str, file: Option<&str>) -> bool {
         place(shared, placed, &done)
     };
     if is_done {
+        let done = match on.filter(|_| file.is_none() && is_solid(shared)) {
+            Some(on) => format!("Added {name} on {on}"),
+            None => format!("Added {name}"),
+        };
         say_added(shared, &done);
     }
     is_done
+}
+
+/// Whether the selected node is an object with a shape of its own.
+fn is_solid(shared: &Shared) -> bool {
+    match shared.cursor.selected() {
+        Node::Object(index) => {
+            let source = shared.source();
+            source.operation(index).is_none() && source.drawn(index).is_some()
+        }
+        _ => false,
+    }
 }
 
 /// Says what was added, which is selected, and the keys that transform it.
@@ -132,53 +146,4 @@ fn say_added(shared: &mut Shared, done: &str) {
         suited => format!("{done}; {}", suited.join(", ")),
     };
     shared.say(words);
-}
-
-/// The centre and half the size of a new thing, and the decimals that its place needs.
-fn place_for_new(shared: &Shared) -> (DVec3, f64, usize) {
-    let Some(camera) = shared.camera() else {
-        return (DVec3::ZERO, 1.0, 2);
-    };
-    let Some((_, size)) = shared.raster() else {
-        return (camera.target, 1.0, 2);
-    };
-    let size_at = |point: DVec3| {
-        let half = 0.5 * SHARE * f64::from(size.height) * pixel_width(point, &camera, size);
-        transform::round_up(half)
-    };
-    let (centre, half) = match surface_looked_at(shared) {
-        Some((point, normal)) => {
-            let half = size_at(point);
-            (lifted(shared, point + half * normal, half), half)
-        }
-        None => (camera.target, size_at(camera.target)),
-    };
-    let decimals = transform::decimals_of(0.2 * half);
-    (centre, half, decimals)
-}
-
-/// A centre raised so that a thing of this half size does not sink into what is below it, in the
-/// direction that the camera takes for down.
-fn lifted(shared: &Shared, centre: DVec3, half: f64) -> DVec3 {
-    let Some((scene, camera)) = shared.scene.as_ref().zip(shared.camera()) else {
-        return centre;
-    };
-    let up = camera.up.normalize_or_zero();
-    match distance_to_surface(scene.objects.iter(), [centre, -up], half) {
-        Some(below) => centre + (half - below) * up,
-        None => centre,
-    }
-}
-
-/// The point and the normal of the surface under the cross, or without a cross under the middle
-/// of the picture, if there is one.
-fn surface_looked_at(shared: &Shared) -> Option<(DVec3, DVec3)> {
-    let Cross { pixel, size } = inspect::cross(shared)?;
-    let Ok(Some(Node::Object(index))) = inspect::node_at(shared, pixel) else {
-        return None;
-    };
-    let scene = shared.scene.as_ref()?;
-    let object = scene.objects.get(shared.source().drawn(index)? as usize)?;
-    let found = surface_under(object, &shared.camera()?, size, pixel)?;
-    Some((found.point, found.normal))
 }

@@ -3,6 +3,7 @@
 mod adding;
 mod filtering;
 mod keys;
+mod standing;
 mod structure;
 
 pub(crate) use adding::{add, add_mesh, own_kind};

@@ -66,7 +66,7 @@ const SCENES: [(&str, &str); 3] = [
 ];
 
 /// Opens the interface with the cursor on the first row of the list.
-fn open(text: &str) -> App {
+pub(in crate::app) fn open(text: &str) -> App {
     let mut app = opened(text).0;
     press(&mut app, "ggj");
     app

@@ -126,12 +126,12 @@ scripts! {
     ");
 
     adding_says_the_keys_that_suit_what_is_added: {
-        scene("a.ray", RAY).each("alight<Enter> | says added: light; m moves it");
+        scene("a.ray", RAY).each("alight<Enter> | says Added light; m moves it");
         scene("a.dat", DAT).each(r"
-            asphere<Enter>   | says added: sphere; m moves it, s scales it
-            abox<Enter>      | says added: box; m moves it, t rotates it, s scales it
-            adistant<Enter>  | says added: distant light; t rotates it
-            amaterial<Enter> | says added: material
+            asphere<Enter>   | says Added sphere; m moves it, s scales it
+            abox<Enter>      | says Added box; m moves it, t rotates it, s scales it
+            adistant<Enter>  | says Added distant light; t rotates it
+            amaterial<Enter> | says Added material
         ");
     };
 
