@@ -75,6 +75,9 @@ fn try_compare(work: &Compare) -> Result<Verdict, Error> {
     match (&work.output, &found) {
         (Some((path, format)), Ok(found)) => {
             draw(path, *format, found.size, heat_map(a.pixels(), b.pixels()))?;
+            if found.largest == 0 {
+                Messages::Text.note(&format!("no differences: {} is black", path.display()));
+            }
         }
         (Some((path, _)), Err(_)) => Messages::Text.note(&format!(
             "{} is not written: pictures of different sizes have no differences to draw",

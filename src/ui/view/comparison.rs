@@ -6,8 +6,9 @@ use ratatui::style::Style;
 
 use super::Inks;
 use super::row::{Focus, Row, put_at, title};
-use crate::app::{App, Compare, compare};
+use crate::app::{App, Compare, Contrast, compare};
 use crate::framing::clear;
+use crate::text_width::wrap;
 use crate::theme;
 use ::compare::{Comparison, Difference};
 
@@ -48,6 +49,7 @@ pub(super) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         lines.put(name, &figure, style);
     }
     lines.at += 1;
+    scale(app.compare.view, &mut lines, inks);
     worst(app, found, &mut lines, inks);
 }
 
@@ -78,10 +80,49 @@ impl Lines<'_> {
     /// Draws a name and what it stands for.
     fn put(&mut self, name: &str, text: &str, style: Style) {
         let column = self.area.x + NAMES;
-        let mut row = self.row();
-        row.skip(1).put(name, theme::DIM);
-        row.skip_to(column).put(text, style);
+        let room = self.area.width.saturating_sub(NAMES);
+        for (index, text) in wrap(text, room.into()).iter().enumerate() {
+            let mut row = self.row();
+            row.skip(1)
+                .put(if index == 0 { name } else { "" }, theme::DIM);
+            row.skip_to(column).put(text, style);
+        }
     }
+}
+
+/// Draws what the colours of differences stand for, in levels of 255.
+fn scale(view: Contrast, lines: &mut Lines, inks: &mut Inks) {
+    const STEPS: u8 = 16;
+    // The levels at a quarter, a half, three quarters and the end; those of a heat map are logarithmic.
+    let (levels, marks) = match view {
+        Contrast::Difference(gain) => {
+            let most = f64::from(u8::MAX) / f64::from(gain);
+            let level = move |share: f64| share * most;
+            (
+                Box::new(level) as Box<dyn Fn(f64) -> f64>,
+                [0.0, 0.5 * most, most],
+            )
+        }
+        Contrast::Heat => {
+            let level = |share: f64| libm::expm1(share * libm::log1p(64.0));
+            (Box::new(level) as _, [0.0, level(0.5), 64.0])
+        }
+        _ => return,
+    };
+    let column = lines.area.x + NAMES;
+    let mut row = lines.row();
+    row.skip(1).put("scale", theme::DIM).skip_to(column);
+    for step in 0..=STEPS {
+        let level = levels(f64::from(step) / f64::from(STEPS)).round() as u8;
+        let colour = view.colour_of(level);
+        let style = Style::new().fg(inks.colour(colour, 0, 0));
+        row.put("█", style);
+    }
+    let [least, middle, most] = marks.map(|mark| format!("{mark:.0}"));
+    let half = usize::from(STEPS) / 2;
+    let words = format!("{least:<half$}{middle:<half$}{most}+ of 255");
+    lines.put("", &words, theme::DIM);
+    lines.at += 1;
 }
 
 /// Draws the worst pixels with their colours in both pictures.

@@ -181,4 +181,7 @@ fn differences_are_drawn() {
     let pixels = drawn.strip_prefix(b"P6\n3 1\n255\n").expect("a picture");
     let is_black = [0, 3, 6].map(|at| pixels[at..at + 3] == [0; 3]);
     assert_eq!(is_black, [true, false, true], "{pixels:?}");
+    let (_, notes, code) = noted(&place, "mine.ppm mine.ppm -o same.ppm");
+    let expected = "note: no differences: same.ppm is black\n";
+    assert_eq!((&*notes, code), (expected, Some(0)));
 }

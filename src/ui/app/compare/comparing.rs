@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::asking::ask_for_reference;
-use super::contrast::Contrast;
+use super::contrast::{Contrast, fitting_gain};
 use super::grading::{graded_aov, graded_job};
 use super::state::{Compare, Origin, Reference, Wipe, Work, shown};
 use crate::app::pictures::picture::Picture;
@@ -211,6 +211,15 @@ pub(super) fn magnify(compare: &Compare, shared: &mut Shared, steps: i8) {
 /// Shows the two pictures in another way.
 pub(super) fn view_as(compare: &mut Compare, shared: &mut Shared, view: Contrast) {
     look(compare, shared, view, compare.wipe);
+}
+
+/// Shows the difference, or the next way to show it.
+pub(super) fn view_difference(compare: &mut Compare, shared: &mut Shared) {
+    let pair = compare.pair();
+    let gain = pair.map_or(1, |pair| {
+        fitting_gain([&pair.live.pixels, &pair.reference.pixels])
+    });
+    view_as(compare, shared, compare.view.next_difference(gain));
 }
 
 /// Moves the line of the wipe by some cells to the right.

@@ -5,6 +5,11 @@ use std::borrow::Cow;
 use compare::heat_map;
 use scene::Size;
 
+/// The factors by which differences are amplified, ascending.
+const GAINS: [u8; 4] = [1, 4, 16, 64];
+/// Of the pixels that differ, one in so many may be too bright to show when amplified.
+const CLIPPED: usize = 100;
+
 /// What of two pictures is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Contrast {
@@ -30,13 +35,16 @@ impl Contrast {
         }
     }
 
-    /// The differences, the next after the last of them being the first.
-    pub(crate) fn next_difference(self) -> Self {
+    /// The differences, the next after the last of them being the first: from another view, the one
+    /// amplified by `fitting`.
+    pub(crate) fn next_difference(self, fitting: u8) -> Self {
         match self {
-            Self::Difference(1) => Self::Difference(4),
-            Self::Difference(4) => Self::Difference(16),
-            Self::Difference(_) => Self::Heat,
-            _ => Self::Difference(1),
+            Self::Difference(gain) => {
+                let larger = GAINS.into_iter().find(|larger| gain < *larger);
+                larger.map_or(Self::Heat, Self::Difference)
+            }
+            Self::Heat => Self::Difference(1),
+            _ => Self::Difference(fitting),
         }
     }
 
@@ -50,6 +58,16 @@ impl Contrast {
             Self::Difference(gain) => return Cow::Owned(format!("difference ×{gain}")),
             Self::Heat => "heat map",
         })
+    }
+
+    /// The colour that stands for a difference of so many levels in all channels.
+    pub(crate) fn colour_of(self, levels: u8) -> [u8; 3] {
+        let size = Size {
+            width: 1,
+            height: 1,
+        };
+        let pixels = self.pixels([&[[levels; 3]], &[[0; 3]]], size, 0.0);
+        pixels.first().copied().unwrap_or_default()
     }
 
     /// The pixels to show of a picture and its reference, both of this size; `wipe` is the share of the
@@ -82,6 +100,22 @@ impl Contrast {
             }
         }
     }
+}
+
+/// The largest factor that leaves the differences of two pictures within what can be shown, but for a few.
+pub(super) fn fitting_gain([live, reference]: [&[[u8; 3]]; 2]) -> u8 {
+    let mut counts = [0_usize; 256];
+    for (a, b) in live.iter().zip(reference) {
+        let levels = [0, 1, 2].map(|channel| a[channel].abs_diff(b[channel]));
+        counts[usize::from(levels.into_iter().max().unwrap_or(0))] += 1;
+    }
+    let differing: usize = counts[1..].iter().sum();
+    let clips = |gain: u8| {
+        let first = usize::from(u8::MAX / gain) + 1;
+        counts[first..].iter().sum::<usize>() * CLIPPED > differing
+    };
+    let mut fitting = GAINS.into_iter().rev().filter(|gain| !clips(*gain));
+    fitting.next().filter(|_| 0 < differing).unwrap_or(1)
 }
 
 #[cfg(test)]
@@ -126,23 +160,42 @@ mod tests {
 
     #[test]
     fn differences_are_amplified_in_turn() {
-        let mut view = Contrast::Wipe;
-        let mut names = Vec::new();
-        for _ in 0..5 {
-            view = view.next_difference();
-            names.push(view.name());
+        for (fitting, expected) in [
+            (
+                1,
+                "difference, difference ×4, difference ×16, difference ×64, heat map, difference",
+            ),
+            (
+                16,
+                "difference ×16, difference ×64, heat map, difference, difference ×4, difference ×16",
+            ),
+        ] {
+            let mut view = Contrast::Wipe;
+            let names = (0..6).map(|_| {
+                view = view.next_difference(fitting);
+                view.name().into_owned()
+            });
+            assert_eq!(names.collect::<Vec<_>>().join(", "), expected);
+            assert_eq!(view.flipped(), Contrast::Live);
         }
-        assert_eq!(
-            names,
-            [
-                "difference",
-                "difference ×4",
-                "difference ×16",
-                "heat map",
-                "difference"
-            ]
-        );
-        assert_eq!(view.flipped(), Contrast::Live);
         assert_eq!(Contrast::Live.flipped(), Contrast::Reference);
+    }
+
+    #[test]
+    fn the_factor_fills_the_range() {
+        for (levels, expected) in [
+            (&[0, 0][..], 1),
+            (&[0, 1], 64),
+            (&[3, 2], 64),
+            (&[4, 0], 16),
+            (&[20, 3], 4),
+            (&[200, 3], 1),
+            // One of many does not count.
+            (&[[3; 200].as_slice(), &[255]].concat(), 64),
+        ] {
+            let live: Vec<_> = levels.iter().map(|&level| [0, level, 0]).collect();
+            let reference = vec![[0; 3]; live.len()];
+            assert_eq!(fitting_gain([&live, &reference]), expected, "{levels:?}");
+        }
     }
 }

@@ -2,7 +2,9 @@
 
 use crossterm::event::KeyCode;
 
-use super::comparing::{explain, go_to_worst, magnify, slide_wipe, start, view_as};
+use super::comparing::{
+    explain, go_to_worst, magnify, slide_wipe, start, view_as, view_difference,
+};
 use super::referring::pin;
 use super::state::Compare;
 use crate::app::Contrast;
@@ -25,7 +27,7 @@ pub(crate) const KEYS: &[Row<Compare>] = &[
     Key::new(COMPARE, "wipe-right", &[c('l'), key(Right)], "wipe further right").does_in(|compare, shared| slide_wipe(compare, shared, 1)),
     Key::new(COMPARE, "wipe-left-far", &[c('H'), shift(Left)], "wipe 8 cells further left").does_in(|compare, shared| slide_wipe(compare, shared, -8)),
     Key::new(COMPARE, "wipe-right-far", &[c('L'), shift(Right)], "wipe 8 cells further right").does_in(|compare, shared| slide_wipe(compare, shared, 8)),
-    Key::new(COMPARE, "difference", &[c('c')], "difference, times 4, times 16, heat map").also("diff subtract delta heatmap error").hint(20, "difference").does_in(|compare, shared| view_as(compare, shared, compare.view.next_difference())),
+    Key::new(COMPARE, "difference", &[c('c')], "difference, by the factor that fills the range; again: the next factor, heat map").also("diff subtract delta heatmap error").hint(20, "difference").does_in(view_difference),
     Key::new(COMPARE, "zoom-in", &[c('+')], "zoom in").also("magnify").hint(50, "zoom").does_in(|compare, shared| magnify(compare, shared, 1)),
     Key::new(COMPARE, "zoom-out", &[c('-')], "zoom out").also("shrink").hint(50, "zoom").does_in(|compare, shared| magnify(compare, shared, -1)),
     Key::new(COMPARE, "explain", &[c('e')], "explain the pixel that is pointed at, or the worst").also("why reason cause").hint(40, "explain").does_in(explain),

@@ -46,9 +46,10 @@ scripts! {
             f | contrast reference | first 9
             f | contrast live | first 29
             w | contrast wipe | first 29
-            c | contrast difference | first 20
+            // The factor that fills the range comes first.
             c | contrast difference ×4 | first 80
             c | contrast difference ×16 | first 255
+            c | contrast difference ×64 | first 255
             c | contrast heat map | first 251
             c | contrast difference | first 20
             h | contrast wipe | first 29
