@@ -29,6 +29,7 @@ pub use cause::{cause, fault};
 pub use labels::{Value, label, values};
 pub use lines::{RayLine, RayPart, is_foldable, lines};
 pub use names::{number, numbers};
+pub use wording::{Wording, unlit};
 
 /// What an explanation is about.
 #[derive(Clone, Copy, Debug)]

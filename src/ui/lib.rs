@@ -16,12 +16,12 @@
 //! | [`keymap`] | what rows of keys say: bindings, help, hints, configuration |
 //! | [`view`] | drawing the state |
 //! | `shell` | the event loop: inbox, effects, the screen, scripts of keys |
-//! | [`service`] | work in the background: reading, writing, comparing, explaining, deriving |
+//! | [`service`] | work in the background: reading, writing, comparing, explaining, locating, deriving |
 //! | [`recovery`] | unsaved edits, kept for a later run |
 //! | [`terminal`] | bytes from and to the terminal |
 //! | [`msg`], `event`, [`queue`] | messages and effects; what arrives in the inbox; threads that carry out requests |
 //! | [`arrange`], [`layout`], [`listing`], `error_panel`, [`history_layout`] | where things are on screen, for drawing and for the mouse alike |
-//! | [`scene_reading`], [`reference`](mod@reference), [`revision`], [`history_scene`], [`reel`] | what background work is asked for, and what it answers |
+//! | [`scene_reading`], [`reference`](mod@reference), [`revision`], [`history_scene`], [`located`], [`reel`] | what background work is asked for, and what it answers |
 //! | [`doctor`], `options`, `pixels`, `theme`, `text_width` | what was detected and chosen, and text made to fit |
 
 /// A table of cases: in each row, what is given and what is expected of it, as one tuple.
@@ -43,6 +43,7 @@ pub mod history_scene;
 pub mod keymap;
 pub mod layout;
 pub mod listing;
+pub mod located;
 mod matching;
 pub mod msg;
 mod options;

@@ -11,6 +11,7 @@ use crossterm::event::{KeyEvent, MouseEvent};
 
 use super::arrange::PanelSizes;
 use super::history_scene::{HistoryScene, HistoryText, NoPicture};
+use super::located::{Located, Search};
 use super::recovery::{Claim, Found, Sought};
 use super::reel::{Reel, ReelProgress};
 use super::reference::{Pair, ReferenceId, ReferenceRead, ReferenceSource};
@@ -87,6 +88,8 @@ pub enum Msg {
     Ended(Target),
     /// The result of [`Effect::Explain`]; `None` if the picture has been replaced.
     Explained(Question, Option<Box<Explanation>>),
+    /// The result of [`Effect::Locate`], by its ticket; `None` if there is too little memory.
+    Located(u64, Option<Box<Located>>),
     /// The scene file may have changed.
     FileChanged,
     /// The system cannot notify of all changes of these files, for this reason, and they are polled;
@@ -272,6 +275,8 @@ pub enum Effect {
     /// Explains a sample of a pixel of this frame, reported by [`Msg::Explained`] unless another
     /// question follows at once.
     Explain(Question, Arc<Frame>),
+    /// Locates something in the picture, reported by [`Msg::Located`] unless another search follows at once.
+    Locate(Box<Search>),
     /// Stops tracing this picture; [`Effect::Trace`] of the same continues it.
     Halt(Target),
     /// Pauses the tracing of this picture until [`Effect::Resume`] or [`Effect::Trace`].

@@ -8,6 +8,9 @@ pub(crate) fn go_back(shared: &mut Shared) {
     match shared.context() {
         Context::Errors => shared.overlays.errors = None,
         Context::Rays => shared.inspection.explained = None,
+        Context::In(Mode::Select | Mode::Edit) if shared.inspection.locates => {
+            shared.inspection.locates = false;
+        }
         Context::In(Mode::Trace) => {
             shared.mode = shared.pictures.before_trace.take().unwrap_or(Mode::Select);
         }

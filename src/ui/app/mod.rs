@@ -15,7 +15,7 @@
 //! | [`edit`], [`select`], [`sequence`], [`trace`] | EDIT: values of fields; SELECT: the list and the selected things; SEQUENCE: a track, played and keyed; TRACE: the full-size trace and its region |
 //! | [`exports`], [`history`], [`files`], [`buffer`] | pictures written; undo, redo and their page; the scene's files, and an editor's buffer in place of its own |
 //! | [`samples`], [`tutor`] | the sample scenes as pictures; lessons beside the picture |
-//! | [`compare`], [`camera`], [`transform`], [`inspect`] | COMPARE; VIEW and FLY; MOVE; INSPECT and the rays behind a pixel |
+//! | [`compare`], [`camera`], [`transform`], [`inspect`], [`whereabouts`] | COMPARE; VIEW and FLY; MOVE; INSPECT and the rays behind a pixel; where a row is in the picture |
 //! | [`suggesting`], [`text`] | what is wrong with a picture, and the setting that would help; every change of the text |
 //! | [`display`], [`panels`] | what pictures show and ask for; how much of the screen they take |
 //! | [`room`] | how a room reacts to steps, presses and drags; what a row of keys is |
@@ -57,6 +57,7 @@ mod transform;
 pub(crate) mod tutor;
 mod update;
 mod values;
+pub(crate) mod whereabouts;
 
 pub use camera::View;
 pub use command::commands;
@@ -99,3 +100,4 @@ pub use trace::Trace;
 pub use transform::{Moving, Tool, Transform};
 pub use tutor::Tutor;
 pub use values::hsv::Hsv;
+pub use whereabouts::Whereabouts;

@@ -4,8 +4,8 @@
 use super::room::{Room, Row};
 use super::{
     Compare, Gallery, Inspect, Moving, Opening, Sequence, Shared, Thumbnails, Tool, Trace, Tutor,
-    View, camera, compare, display, edit, files, history, inspect, keys, samples, select, sequence,
-    text, trace, transform,
+    View, Whereabouts, camera, compare, display, edit, files, history, inspect, keys, samples, select,
+    sequence, text, trace, transform, whereabouts,
 };
 use crate::keymap::{Entry, Key, Keymap, Mode, RankedHint, RowId};
 use crate::msg::Effect;
@@ -129,6 +129,8 @@ modes! {
     gallery: Gallery;
     /// The lesson that is taught.
     tutor: Tutor;
+    /// The panel that tells where the selected thing is.
+    whereabouts: Whereabouts;
 }
 
 /// All rows of keys, in slices. Their order matters: a key that is not bound where it is pressed is
@@ -145,6 +147,7 @@ const ROWS: &[Rows] = &[
     Rows::Shared(select::KEYS),
     Rows::Move(transform::ENTRIES),
     Rows::Shared(select::OTHERS),
+    Rows::Shared(whereabouts::KEYS),
     Rows::Move(transform::KEYS),
     Rows::Sequence(sequence::KEYS),
     Rows::Shared(inspect::KEYS),

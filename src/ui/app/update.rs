@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::shared::journal::KEPT_AFTER;
 use super::{
     App, Grid, buffer, command, compare, display, exports, files, history, inspect, pasting,
-    samples, sequence, suggesting, text, trace, tutor,
+    samples, sequence, suggesting, text, trace, tutor, whereabouts,
 };
 use crate::history_scene::NoPicture;
 use crate::msg::{Effect, Msg, Target, Timer};
@@ -81,6 +81,9 @@ impl App {
             }
             Msg::Recalled(recalled) => trace::recalled(shared, recalled),
             Msg::Explained(question, answer) => inspect::explained(shared, question, answer),
+            Msg::Located(ticket, found) => {
+                whereabouts::located(&mut self.whereabouts, ticket, found);
+            }
             Msg::Buffer(news) => return buffer::heard(shared, news),
             Msg::FileChanged => return files::read_again(shared),
             Msg::Polled(what, reason) => files::polled(shared, what, reason),

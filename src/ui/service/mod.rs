@@ -1,4 +1,4 @@
-//! Background work: threads that read, write, watch, compare, explain, derive and film, so that no key
+//! Background work: threads that read, write, watch, compare, explain, locate, derive and film, so that no key
 //! press waits for them.
 
 mod answering;
@@ -9,6 +9,7 @@ mod deriving;
 pub mod destination;
 mod explaining;
 pub mod filming;
+mod locating;
 pub mod remembering;
 pub mod scene_loader;
 mod tracks;
@@ -20,4 +21,7 @@ pub(crate) use assets::assets;
 pub(crate) use comparing::{figures, references};
 pub(crate) use deriving::history_scenes;
 pub(crate) use explaining::explanations;
+#[cfg(test)]
+pub(crate) use locating::locate;
+pub(crate) use locating::whereabouts;
 pub(crate) use tracks::tracks;

@@ -21,6 +21,7 @@ use super::screen::Screen;
 use super::tty_session::TtySession;
 use crate::event::{Event, Work, sending};
 use crate::history_scene::{HistoryText, NoPicture};
+use crate::located::Search;
 use crate::msg::{
     Destination, Effect, ExportId, Msg, Origin, Question, SaveOutcome, Target, Timer,
 };
@@ -63,6 +64,7 @@ pub(crate) struct Runtime {
     references: Answering<(ReferenceId, ReferenceSource)>,
     figures: Answering<Pair>,
     explanations: Answering<(Question, Arc<Frame>)>,
+    whereabouts: Answering<Box<Search>>,
     history_scenes: Answering<HistoryText>,
     threads: Option<usize>,
     /// The command line of the editor that is configured.
@@ -105,6 +107,7 @@ impl Runtime {
             figures: service::figures(sending(&sender))?,
             history_scenes: service::history_scenes(&options.assets, sending(&sender))?,
             explanations: service::explanations(sending(&sender))?,
+            whereabouts: service::whereabouts(sending(&sender))?,
             threads: options.threads,
             editor: options.editor.clone(),
             renderers: BTreeMap::new(),
@@ -224,6 +227,7 @@ impl Runtime {
             Effect::Explain(question, frame) => {
                 self.explanations.ask((question, frame), self.work())?;
             }
+            Effect::Locate(search) => self.whereabouts.ask(search, self.work())?,
             Effect::Read(path, baseline) => self.reader.read(path, baseline, self.work())?,
             Effect::Open(path, language) => self.reader.open(path, language, self.work())?,
             Effect::ReadAssets(wanted) => self.assets.ask(wanted, self.work())?,

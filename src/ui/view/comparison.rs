@@ -115,7 +115,7 @@ fn scale(view: Contrast, lines: &mut Lines, inks: &mut Inks) {
     for step in 0..=STEPS {
         let level = levels(f64::from(step) / f64::from(STEPS)).round() as u8;
         let colour = view.colour_of(level);
-        let style = Style::new().fg(inks.colour(colour, 0, 0));
+        let style = Style::new().fg(inks.colour(colour));
         row.put("█", style);
     }
     let [least, middle, most] = marks.map(|mark| format!("{mark:.0}"));

@@ -37,6 +37,7 @@ mod symbols;
 mod tiles;
 mod tutor;
 mod values;
+mod whereabouts;
 mod wireframe;
 
 #[cfg(test)]
@@ -102,6 +103,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) -> Option
     } else if app.shared.mode == Mode::Inspect {
         pixel::render_over(&app.shared, areas.picture, buffer);
     }
+    whereabouts::render(app, [areas.list, areas.fields, areas.picture], buffer);
     histogram::render(&app.shared, areas.picture, buffer);
     errors::render(&app.shared, areas.errors, buffer);
     let status = current::render(&app.shared, &areas, buffer);

@@ -12,7 +12,7 @@ use unicode_width::UnicodeWidthStr;
 use super::graphics_gap::leave;
 use super::inks::{Drawing, Inks};
 use super::row::{Row, put_at};
-use super::{comparison, pixel, sketch, symbols, tiles, values, wireframe};
+use super::{comparison, pixel, sketch, symbols, tiles, values, whereabouts, wireframe};
 use crate::app::{App, CellImage, FirstReading, Grid, Shared, display, inspect};
 use crate::framing::clear;
 use crate::keymap::{Context, Mode};
@@ -87,6 +87,7 @@ fn overlays(
         path(shared, depth, cells, buffer);
         cross(shared, cells, buffer);
     }
+    whereabouts::mark(app, cells, buffer);
     if shared.mode == Mode::Compare {
         comparison::mark(app, cells, buffer);
     }

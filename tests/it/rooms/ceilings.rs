@@ -81,12 +81,14 @@ const OWN: &[(&str, &str)] = &[("Fly", "camera"), ("Move", "transform"), ("View"
 const MODES: &[(&str, usize)] = &[
     ("Compare", 11),
     // The keys that start another mode list the modes in which they work.
-    ("Edit", 17),
+    // What is located is also outlined while its fields are edited.
+    ("Edit", 19),
     // SEQUENCE's own rows of keys list the modes that they act in.
     ("Fly", 7),
     ("Inspect", 11),
     ("Move", 13),
-    ("Select", 26),
+    // The key that locates the selected thing works here and in EDIT.
+    ("Select", 27),
     // Leaving it means taking back its transient edit, so both are in one file.
     ("Sequence", 10),
     ("Trace", 9),

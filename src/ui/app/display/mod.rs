@@ -15,7 +15,7 @@ pub(crate) use light::{
     toggle_false_colours, toggle_histogram, view_name,
 };
 pub(crate) use previewing::{follow, follow_scene, follow_wires};
-pub(crate) use soloing::{keep_solo, toggle_solo, toggle_solo_of};
+pub(crate) use soloing::{drawn_in, keep_solo, toggle_solo, toggle_solo_of};
 pub use symbols::{Symbol, SymbolKind};
 pub(crate) use symbols::{outlined_objects, symbol_at, symbols, toggle_symbols};
 pub use zooming::frame_window;

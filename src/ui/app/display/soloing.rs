@@ -84,7 +84,7 @@ pub(super) fn preview_scene(shared: &Shared) -> Option<Part> {
 }
 
 /// The objects of the scene that these of the text draw, ascending.
-fn drawn_in(shared: &Shared, objects: &BTreeSet<usize>) -> Vec<u32> {
+pub(crate) fn drawn_in(shared: &Shared, objects: &BTreeSet<usize>) -> Vec<u32> {
     let source = shared.source();
     let depth = |object: usize| source.depth(Node::Object(object));
     let count = source.nodes().objects();

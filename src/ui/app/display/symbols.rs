@@ -1,5 +1,8 @@
 //! Symbols of what has no surface in the picture: lights, the camera and groups.
 
+use std::collections::BTreeSet;
+
+use super::soloing::drawn_in;
 use super::zooming::frame_window;
 use crate::app::Shared;
 use crate::app::pictures::{Outline, Symbols};
@@ -127,12 +130,15 @@ fn symbols_of(shared: &Shared, kind: SymbolKind) -> Option<Vec<Symbol>> {
 /// The objects of the scene to outline in the picture, ascending: the selected one, or those of
 /// the selected material.
 pub(crate) fn outlined_objects(shared: &Shared) -> Vec<u32> {
-    let outlines = matches!(shared.mode, Mode::Select | Mode::Move);
-    if !outlines || shared.pictures.outline != Outline::Shown || 0 < shared.error_count() {
+    let locates = shared.inspection.locates && matches!(shared.mode, Mode::Select | Mode::Edit);
+    let outlines = matches!(shared.mode, Mode::Select | Mode::Move)
+        && shared.pictures.outline == Outline::Shown;
+    if !(locates || outlines) || 0 < shared.error_count() {
         return Vec::new();
     }
     let source = shared.source();
     match shared.cursor.selected() {
+        Node::Object(index) if locates => drawn_in(shared, &BTreeSet::from([index])),
         Node::Object(index) => source.drawn(index).into_iter().collect(),
         Node::Material(material) => {
             let drawn = shared.scene.as_ref().map_or(0, |scene| scene.objects.len());

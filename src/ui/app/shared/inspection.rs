@@ -16,6 +16,8 @@ pub struct Inspection {
     before: Option<(Mode, Target)>,
     /// The explanation of the pixel under the cross, if it is wanted.
     pub explained: Option<Explained>,
+    /// Whether a panel tells where the selected thing is.
+    pub(crate) locates: bool,
 }
 
 /// The explanation of a pixel.

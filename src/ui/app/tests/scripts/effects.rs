@@ -25,6 +25,7 @@ pub(super) fn called(effect: &Effect) -> String {
             let [x, y] = question.pixel;
             format!("explain {} {x},{y}", name(question.target))
         }
+        Effect::Locate(_) => "locate".to_owned(),
         Effect::Derive(past) => format!("derive {}", past.at),
         Effect::WriteImage(_, _, to) => format!("write {}", place(to)),
         Effect::Film(_, reel, to) => format!("film {}: {}", place(to), filmed(reel)),

@@ -5,5 +5,6 @@ mod listing;
 mod moving;
 mod soloing;
 pub(super) mod structure;
+mod whereabouts;
 
 use super::*;
