@@ -8,7 +8,6 @@ use super::Inks;
 use super::row::{Focus, Row, put_at, title};
 use crate::app::{App, Compare, Contrast, compare};
 use crate::framing::clear;
-use crate::text_width::wrap;
 use crate::theme;
 use ::compare::{Comparison, Difference};
 
@@ -80,13 +79,9 @@ impl Lines<'_> {
     /// Draws a name and what it stands for.
     fn put(&mut self, name: &str, text: &str, style: Style) {
         let column = self.area.x + NAMES;
-        let room = self.area.width.saturating_sub(NAMES);
-        for (index, text) in wrap(text, room.into()).iter().enumerate() {
-            let mut row = self.row();
-            row.skip(1)
-                .put(if index == 0 { name } else { "" }, theme::DIM);
-            row.skip_to(column).put(text, style);
-        }
+        let mut row = self.row();
+        row.skip(1).put(name, theme::DIM);
+        row.skip_to(column).put(text, style);
     }
 }
 
