@@ -1,6 +1,12 @@
-//! Planes of numbers and their convolution with separable kernels.
+//! Planes of numbers and their convolution with separable kernels. Each value is a sum in a fixed order,
+//! so that it is the same whatever the number of threads.
+
+use rayon::prelude::*;
 
 use scene::{Image, Size};
+
+/// How many values a thread takes at least at once.
+pub(super) const BLOCK: usize = 4096;
 
 /// A number for each pixel, in rows from the top left.
 #[derive(Clone, Debug)]
@@ -11,16 +17,18 @@ pub(super) struct Plane {
 
 impl Plane {
     /// A plane of a value for each pixel of an image.
-    pub(super) fn of(image: &Image, value: impl Fn([u8; 3]) -> f64) -> Self {
+    pub(super) fn of(image: &Image, value: impl Fn([u8; 3]) -> f64 + Sync) -> Self {
+        let pixels = image.pixels().par_iter().with_min_len(BLOCK);
         Self {
             size: image.size(),
-            values: image.pixels().iter().map(|pixel| value(*pixel)).collect(),
+            values: pixels.map(|pixel| value(*pixel)).collect(),
         }
     }
 
     /// Combines two planes of the same size, value by value.
-    pub(super) fn with(&self, other: &Self, combined: impl Fn(f64, f64) -> f64) -> Self {
-        let pairs = self.values.iter().zip(&other.values);
+    pub(super) fn with(&self, other: &Self, combined: impl Fn(f64, f64) -> f64 + Sync) -> Self {
+        let values = self.values.par_iter().with_min_len(BLOCK);
+        let pairs = values.zip(&other.values);
         Self {
             size: self.size,
             values: pairs.map(|(a, b)| combined(*a, *b)).collect(),
@@ -31,29 +39,26 @@ impl Plane {
     /// its values go on.
     pub(super) fn convolved(&self, across: &[f64], down: &[f64]) -> Self {
         let [width, height] = [self.size.width, self.size.height].map(|side| side as usize);
-        let mut rows = Self {
-            size: self.size,
-            values: Vec::with_capacity(self.values.len()),
-        };
-        for row in self.values.chunks_exact(width) {
-            rows.values.extend((0..width).map(|x| {
-                let taps = neighbours(x, across.len(), width);
-                across
-                    .iter()
-                    .zip(taps)
-                    .map(|(weight, at)| weight * row[at])
-                    .sum::<f64>()
-            }));
-        }
+        let mut rows = vec![0.0; self.values.len()];
+        let few = BLOCK.div_ceil(width.max(1));
+        let pairs = rows
+            .par_chunks_exact_mut(width)
+            .zip(self.values.par_chunks_exact(width));
+        pairs
+            .with_min_len(few)
+            .for_each_init(Vec::new, |padded, (sums, row)| {
+                padded.clear();
+                padded
+                    .extend((0..width + across.len() - 1).map(|at| row[before(at, across, width)]));
+                add(sums, across, |tap| &padded[tap..]);
+            });
         let mut values = vec![0.0; self.values.len()];
-        for (y, row) in values.chunks_exact_mut(width).enumerate() {
-            for (weight, at) in down.iter().zip(neighbours(y, down.len(), height)) {
-                let source = &rows.values[at * width..][..width];
-                for (sum, value) in row.iter_mut().zip(source) {
-                    *sum += weight * value;
-                }
-            }
-        }
+        let sums = values.par_chunks_exact_mut(width).with_min_len(few);
+        sums.enumerate().for_each(|(y, sums)| {
+            add(sums, down, |tap| {
+                &rows[before(y + tap, down, height) * width..]
+            });
+        });
         Self {
             size: self.size,
             values,
@@ -71,10 +76,30 @@ impl Plane {
     }
 }
 
-/// The places that a kernel of this length covers around a place, moved to the nearest that exist.
-fn neighbours(place: usize, length: usize, count: usize) -> impl Iterator<Item = usize> {
-    let before = length / 2;
-    (0..length).map(move |tap| (place + tap).saturating_sub(before).min(count - 1))
+/// The place that the first tap of a kernel covers around a place, moved to the nearest that exists.
+fn before(place: usize, kernel: &[f64], count: usize) -> usize {
+    place.saturating_sub(kernel.len() / 2).min(count - 1)
+}
+
+/// Adds the values of each tap, weighted, to as many sums. Several taps at once, as the sums are then less
+/// often read and written, but in order.
+fn add<'v>(sums: &mut [f64], kernel: &[f64], values: impl Fn(usize) -> &'v [f64]) {
+    let count = sums.len();
+    let groups = kernel.chunks_exact(4);
+    let rest = groups.remainder();
+    for (group, weights) in groups.enumerate() {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|tap| values(4 * group + tap)[..count].iter());
+        let taps = a.zip(b).zip(c).zip(d);
+        for (sum, (((a, b), c), d)) in sums.iter_mut().zip(taps) {
+            *sum = *sum + weights[0] * a + weights[1] * b + weights[2] * c + weights[3] * d;
+        }
+    }
+    for (tap, weight) in rest.iter().enumerate() {
+        let values = values(kernel.len() - rest.len() + tap);
+        for (sum, value) in sums.iter_mut().zip(values) {
+            *sum += weight * value;
+        }
+    }
 }
 
 /// The values of a function at the whole numbers from −`radius` to `radius`.

@@ -5,41 +5,49 @@
 
 use std::f64::consts::PI;
 
-use super::blur::{Plane, kernel, normalised};
+use rayon::prelude::*;
+
+use super::blur::{BLOCK, Plane, kernel, normalised};
 use scene::{Image, Rgb};
 
 /// Pixels per degree of the field of view.
 const DENSITY: f64 = 3840.0 * PI / 180.0;
 
 /// The mean difference of two pictures of the same size, 0 to 1.
-pub(super) fn mean(a: &Image, b: &Image) -> f64 {
+pub(super) fn mean(a: &Seen, b: &Seen) -> f64 {
     let map = map(a, b);
     map.iter().sum::<f64>() / map.len().max(1) as f64
 }
 
+/// What is seen of a picture.
+#[derive(Debug)]
+pub(super) struct Seen {
+    colours: Vec<Rgb>,
+    features: Features,
+}
+
+impl Seen {
+    pub(super) fn of(image: &Image) -> Self {
+        let planes = opponent(image);
+        Self {
+            colours: perceived(&planes),
+            features: Features::of(&planes[0]),
+        }
+    }
+}
+
 /// The difference at each pixel, 0 to 1.
-pub(super) fn map(a: &Image, b: &Image) -> Vec<f64> {
-    let [a, b] = [a, b].map(opponent);
-    let colours = [&a, &b].map(perceived);
-    let features = [&a[0], &b[0]].map(Features::of);
-    let colours = colours[0].iter().zip(&colours[1]);
-    let edges = features[0]
-        .edges
-        .values
-        .iter()
-        .zip(&features[1].edges.values);
-    let points = features[0]
-        .points
-        .values
-        .iter()
-        .zip(&features[1].points.values);
-    let both = colours.zip(edges.zip(points));
-    both.map(|((a, b), (edges, points))| {
-        let gap = |(a, b): (&f64, &f64)| (a - b).abs();
+fn map(a: &Seen, b: &Seen) -> Vec<f64> {
+    let edges = [a, b].map(|seen| &seen.features.edges.values);
+    let points = [a, b].map(|seen| &seen.features.points.values);
+    let largest = hyab(lab(Rgb::Y), lab(Rgb::Z)).powf(0.7);
+    let pixels = a.colours.par_iter().with_min_len(BLOCK).zip(&b.colours);
+    let at_each = pixels.enumerate().map(|(at, (a, b))| {
+        let gap = |[a, b]: [&Vec<f64>; 2]| (a[at] - b[at]).abs();
         let feature = (gap(edges).max(gap(points)) / 2_f64.sqrt()).sqrt();
-        colour_difference(*a, *b).powf(1.0 - feature)
-    })
-    .collect()
+        colour_difference(*a, *b, largest).powf(1.0 - feature)
+    });
+    at_each.collect()
 }
 
 /// The planes of a picture in `YCxCz`, an opponent colour space that is linear in light.
@@ -61,7 +69,8 @@ fn opponent(image: &Image) -> [Plane; 3] {
 /// effect: chroma is seen the less, the darker it is.
 fn perceived(planes: &[Plane; 3]) -> Vec<Rgb> {
     let [y, cx, cz] = [0, 1, 2].map(|at| sensed(&planes[at], SENSITIVITIES[at]));
-    let channels = y.values.iter().zip(&cx.values).zip(&cz.values);
+    let luminances = y.values.par_iter().with_min_len(BLOCK);
+    let channels = luminances.zip(&cx.values).zip(&cz.values);
     let colour = channels.map(|((y, cx), cz)| {
         let y = (y + 16.0) / 116.0;
         let relative = Rgb::new(y + cx / 500.0, y, y - cz / 200.0);
@@ -103,6 +112,7 @@ fn sensed(plane: &Plane, sensitivity: Sensitivity) -> Plane {
 }
 
 /// How strongly edges and points are seen around each pixel.
+#[derive(Debug)]
 struct Features {
     edges: Plane,
     points: Plane,
@@ -143,8 +153,7 @@ fn balanced(kernel: &[f64]) -> Vec<f64> {
 
 /// The difference of two colours in L*a*b*, 0 to 1: `HyAB` to the power of 0.7, of which the range up
 /// to 0.4 of the largest (between green and blue) takes 0.95 (equations 5 to 8).
-fn colour_difference(a: Rgb, b: Rgb) -> f64 {
-    let largest = hyab(lab(Rgb::Y), lab(Rgb::Z)).powf(0.7);
+fn colour_difference(a: Rgb, b: Rgb, largest: f64) -> f64 {
     let knee = 0.4 * largest;
     let difference = hyab(a, b).powf(0.7);
     if difference < knee {

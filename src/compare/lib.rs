@@ -6,6 +6,7 @@ mod flip;
 mod heat;
 mod ssim;
 
+use blur::Plane;
 use scene::{Image, Size};
 
 pub use heat::heat_map;
@@ -59,6 +60,44 @@ impl Difference {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SizesDiffer(pub [Size; 2]);
 
+/// A picture that others are compared with: what the figures need of it is computed once, and takes about
+/// 115 bytes per pixel.
+#[derive(Debug)]
+pub struct Reference {
+    image: Image,
+    seen: flip::Seen,
+    moments: [ssim::Moments; 3],
+}
+
+impl Reference {
+    /// Prepares a picture.
+    pub fn new(image: Image) -> Self {
+        Self {
+            seen: flip::Seen::of(&image),
+            moments: [0, 1, 2].map(|channel| ssim::Moments::of(&image, channel)),
+            image,
+        }
+    }
+
+    /// The picture itself.
+    pub fn image(&self) -> &Image {
+        &self.image
+    }
+
+    /// Compares a picture with it, as [`Comparison::of`] does.
+    ///
+    /// # Errors
+    ///
+    /// Fails if their sizes differ.
+    pub fn compared(&self, other: &Image, tolerance: u8) -> Result<Comparison, SizesDiffer> {
+        let similarity = |channel: usize| {
+            ssim::of_channel(&self.moments[channel], &ssim::Moments::of(other, channel))
+        };
+        let flip = || flip::mean(&self.seen, &flip::Seen::of(other));
+        Comparison::with([&self.image, other], tolerance, similarity, flip)
+    }
+}
+
 impl Comparison {
     /// Compares two pictures. Pixels count as differing if a channel does by more than `tolerance`
     /// levels; the other figures do not depend on it.
@@ -67,6 +106,20 @@ impl Comparison {
     ///
     /// Fails if their sizes differ.
     pub fn of(a: &Image, b: &Image, tolerance: u8) -> Result<Self, SizesDiffer> {
+        let similarity = |channel: usize| {
+            let [a, b] = [a, b].map(|image| ssim::Moments::of(image, channel));
+            ssim::of_channel(&a, &b)
+        };
+        let flip = || flip::mean(&flip::Seen::of(a), &flip::Seen::of(b));
+        Self::with([a, b], tolerance, similarity, flip)
+    }
+
+    fn with(
+        [a, b]: [&Image; 2],
+        tolerance: u8,
+        similarity: impl Fn(usize) -> Plane,
+        flip: impl FnOnce() -> f64,
+    ) -> Result<Self, SizesDiffer> {
         let size = a.size();
         if size != b.size() {
             return Err(SizesDiffer([size, b.size()]));
@@ -90,8 +143,8 @@ impl Comparison {
             differing,
             largest,
             mse: squares as f64 / (3 * size.pixels()) as f64,
-            ssim: ssim::mean(a, b),
-            flip: if largest == 0 { 0.0 } else { flip::mean(a, b) },
+            ssim: ssim::mean(similarity),
+            flip: if largest == 0 { 0.0 } else { flip() },
             worst: worst(a, b),
         })
     }

@@ -12,30 +12,59 @@ const DEVIATION: f64 = 1.5;
 const C1: f64 = (0.01 * 255.0) * (0.01 * 255.0);
 const C2: f64 = (0.03 * 255.0) * (0.03 * 255.0);
 
-/// The mean structural similarity of two pictures of the same size; `None` if no window fits.
-pub(super) fn mean(a: &Image, b: &Image) -> Option<f64> {
-    let means = (0..3).map(|channel| {
-        let plane = |image| Plane::of(image, |pixel| f64::from(pixel[channel]));
-        of_channel(&plane(a), &plane(b)).inner_mean(RADIUS)
-    });
+/// What is needed of one picture: a channel, its local mean and its local variance.
+#[derive(Debug)]
+pub(super) struct Moments {
+    plane: Plane,
+    mean: Plane,
+    variance: Plane,
+}
+
+impl Moments {
+    /// Those of a channel.
+    pub(super) fn of(image: &Image, channel: usize) -> Self {
+        let plane = Plane::of(image, |pixel| f64::from(pixel[channel]));
+        let mean = mean_of(&plane);
+        let variance = covariance([&plane, &plane], [&mean, &mean]);
+        Self {
+            plane,
+            mean,
+            variance,
+        }
+    }
+}
+
+/// The mean structural similarity of two pictures of the same size, given the similarity of each channel;
+/// `None` if no window fits.
+pub(super) fn mean(similarity: impl Fn(usize) -> Plane) -> Option<f64> {
+    let means = (0..3).map(|channel| similarity(channel).inner_mean(RADIUS));
     Some(means.sum::<Option<f64>>()? / 3.0)
 }
 
 /// The similarity of the window around each pixel.
-fn of_channel(a: &Plane, b: &Plane) -> Plane {
-    let weights = normalised(&kernel(RADIUS, |x| (-0.5 * (x / DEVIATION).powi(2)).exp()));
-    let mean = |plane: &Plane| plane.convolved(&weights, &weights);
-    let product = |a: &Plane, b: &Plane| a.with(b, |a, b| a * b);
-    let (mean_a, mean_b) = (mean(a), mean(b));
-    // E[ab] − E[a] E[b]; of a plane with itself, its variance.
-    let covariance = |a: &Plane, b: &Plane, mean_a: &Plane, mean_b: &Plane| {
-        mean(&product(a, b)).with(&product(mean_a, mean_b), |both, apart| both - apart)
-    };
-    let deviations = covariance(a, a, &mean_a, &mean_a)
-        .with(&covariance(b, b, &mean_b, &mean_b), |a, b| a + b + C2);
-    let likeness = covariance(a, b, &mean_a, &mean_b).with(&deviations, |both, deviations| {
+pub(super) fn of_channel(a: &Moments, b: &Moments) -> Plane {
+    let deviations = a.variance.with(&b.variance, |a, b| a + b + C2);
+    let both = covariance([&a.plane, &b.plane], [&a.mean, &b.mean]);
+    let likeness = both.with(&deviations, |both, deviations| {
         (2.0 * both + C2) / deviations
     });
-    let luminance = mean_a.with(&mean_b, |a, b| (2.0 * a * b + C1) / (a * a + b * b + C1));
+    let luminance = a
+        .mean
+        .with(&b.mean, |a, b| (2.0 * a * b + C1) / (a * a + b * b + C1));
     product(&luminance, &likeness)
+}
+
+fn mean_of(plane: &Plane) -> Plane {
+    let weights = normalised(&kernel(RADIUS, |x| (-0.5 * (x / DEVIATION).powi(2)).exp()));
+    plane.convolved(&weights, &weights)
+}
+
+/// E[ab] − E[a] E[b]; of a plane with itself, its variance.
+fn covariance([a, b]: [&Plane; 2], [mean_a, mean_b]: [&Plane; 2]) -> Plane {
+    let both = mean_of(&product(a, b));
+    both.with(&product(mean_a, mean_b), |both, apart| both - apart)
+}
+
+fn product(a: &Plane, b: &Plane) -> Plane {
+    a.with(b, |a, b| a * b)
 }

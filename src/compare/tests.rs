@@ -162,3 +162,14 @@ fn the_heat_map_is_black_where_pictures_agree_and_white_where_they_differ_much()
     assert_eq!([map[0], map[2], map[3]], [[0; 3], [255; 3], [255; 3]]);
     assert!(map[1] != [0; 3], "{:?}", map[1]);
 }
+
+/// Sums are added in the order of the taps, whatever is done at once.
+#[test]
+fn a_prepared_reference_gives_the_same_figures() {
+    let reference = Reference::new(image(SIZE, ramps));
+    for other in [ramps as Channel, noisy, edged, inverse] {
+        let other = image(SIZE, other);
+        let found = Comparison::of(reference.image(), &other, 2);
+        assert_eq!(reference.compared(&other, 2), found);
+    }
+}
