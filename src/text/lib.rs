@@ -1,5 +1,6 @@
 //! Spans, edits, numbers and diagnostics of text. Knows no language.
 
+mod base64;
 mod codes;
 mod comment_columns;
 mod counted;
@@ -17,6 +18,7 @@ mod shell;
 mod span;
 mod visible;
 
+pub use base64::base64;
 pub use codes::without_codes;
 pub use comment_columns::keep_columns;
 pub use counted::{alternatives, counted};
