@@ -10,6 +10,7 @@ mod cause;
 mod labels;
 mod lines;
 mod names;
+mod parting;
 mod sentences;
 #[cfg(test)]
 mod tests;
@@ -29,6 +30,7 @@ pub use cause::{cause, fault};
 pub use labels::{Value, label, values};
 pub use lines::{RayLine, RayPart, is_foldable, lines};
 pub use names::{number, numbers};
+pub use parting::parting;
 pub use wording::{Wording, unlit};
 
 /// What an explanation is about.

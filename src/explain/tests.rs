@@ -1,6 +1,7 @@
 //! Small scenes with something wrong, and what is to be said about a pixel of each.
 
 mod help;
+mod parting;
 
 use std::fs;
 use std::path::Path;
@@ -35,6 +36,26 @@ const PATH: How = How {
 
 /// Explains a pixel of a text without its files.
 fn explain(language: Language, text: &str, pixel: [u32; 2], how: How) -> Words {
+    let (explanation, source, job) = explained(language, text, pixel, how);
+    words(&explanation, &subject(&source, &job))
+}
+
+fn subject<'s>(source: &'s Source, job: &'s Job) -> Subject<'s> {
+    Subject {
+        source,
+        scene: &job.scene,
+        camera: &job.camera,
+        size: job.settings.size,
+    }
+}
+
+/// The explanation of a pixel of a text, the text lowered, and how it is traced.
+fn explained(
+    language: Language,
+    text: &str,
+    pixel: [u32; 2],
+    how: How,
+) -> (Explanation, Source, Job) {
     let mut source = Source::new(language, Arc::new(text.to_owned()));
     let lowered = source.lower(&Meshes::default()).expect("there is memory");
     let findings = lowered.diagnostics;
@@ -67,15 +88,7 @@ fn explain(language: Language, text: &str, pixel: [u32; 2], how: How) -> Words {
     let prepared = PreparedScene::new(&job, &|| false).expect("nothing cancels");
     let explained = prepared.query().explain(pixel, how.sample, &|| false);
     let explanation = explained.expect("the pixel is in the picture");
-    words(
-        &explanation,
-        &Subject {
-            source: &source,
-            scene: &job.scene,
-            camera: &job.camera,
-            size,
-        },
-    )
+    (explanation, source, job)
 }
 
 /// Checks the first verdict about the middle of a picture of 40 by 30 pixels, which must contain
