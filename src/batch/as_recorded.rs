@@ -4,7 +4,6 @@ use std::path::Path;
 
 use super::reading::Over;
 use super::{Messages, Tracing};
-use image_file::Recorded;
 use render::{Job, PictureMetadata, Provenance, Region, can_denoise};
 use scene::{Rendering, Scene, Size};
 
@@ -22,9 +21,13 @@ pub(super) struct AsRecorded<'w> {
 }
 
 impl<'w> AsRecorded<'w> {
-    pub(super) fn new([scene, picture]: [&'w Path; 2], read: &Recorded, said: &'w Tracing) -> Self {
-        let mut record = read.record.clone();
-        let own = read.image.size();
+    /// To be traced as a picture of this size with this record.
+    pub(super) fn new(
+        [scene, picture]: [&'w Path; 2],
+        (own, record): (Size, Option<&PictureMetadata>),
+        said: &'w Tracing,
+    ) -> Self {
+        let mut record = record.cloned();
         let (size, region) = match (said.size, said.region, &mut record) {
             (None, None, Some(record)) => {
                 let (size, region) = record.framing(own);

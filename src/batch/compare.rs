@@ -1,38 +1,69 @@
-//! Compares two pictures, each from a picture file or traced from a scene.
+//! Compares two pictures, each from a picture file or traced from a scene; or, in the folder of this file,
+//! many with one.
+
+mod class;
+mod matching;
+mod report;
+mod row;
+mod side;
+mod table;
+mod thumbnail;
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::as_recorded::AsRecorded;
 use super::output::Output;
-use super::tracing::Tracer;
 use super::{Error, Messages, Reading, Tracing, stdout};
 use compare::{Comparison, Difference, SizesDiffer, heat_map};
-use image_file::{ImageFormat, Picture, Recorded, in_8_bits};
-use language::Language;
+use image_file::{ImageFormat, Picture};
 use render::{Frame, Frames};
 use scene::{Image, Size};
+use side::{Model, is_picture, read, trace};
 use text::visible;
 
-/// Two pictures to compare.
+pub use report::ReportFormat;
+
+/// Pictures to compare with one, or with those of a folder.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Compare {
-    /// The files of the pictures or scenes.
-    pub sides: [PathBuf; 2],
+    /// The picture or scene to compare with, or a folder of such.
+    pub reference: PathBuf,
+    /// The pictures and scenes to compare, or folders of such; never empty.
+    pub submissions: Vec<PathBuf>,
     /// The largest difference of a channel, in levels, that does not count.
     pub tolerance: u8,
     /// The number of pixels that may differ by more.
     pub max_differing: usize,
     /// How the figures are printed.
     pub report: Report,
-    /// Where the differences are drawn.
+    /// Where the differences are drawn, of two files.
     pub output: Option<(PathBuf, ImageFormat)>,
+    /// The documents that are written about all of them.
+    pub reports: Vec<(PathBuf, ReportFormat)>,
     /// How scenes are traced.
     pub tracing: Tracing,
     /// How scenes are read.
     pub reading: Reading,
+}
+
+impl Compare {
+    /// The files that are written.
+    fn outputs(&self) -> impl Iterator<Item = &Path> {
+        let drawn = self.output.iter().map(|(path, _)| path.as_path());
+        drawn.chain(self.reports.iter().map(|(path, _)| path.as_path()))
+    }
+
+    /// The two files, if there are no more and no document is to be written.
+    fn sides(&self) -> Option<[&Path; 2]> {
+        let [submission] = &self.submissions[..] else {
+            return None;
+        };
+        let is_of_files =
+            self.reports.is_empty() && !self.reference.is_dir() && !submission.is_dir();
+        is_of_files.then_some([&self.reference, submission])
+    }
 }
 
 /// How figures are printed.
@@ -53,23 +84,25 @@ pub enum Verdict {
     Different,
 }
 
-/// Compares two pictures and prints the figures to standard output.
+/// Compares pictures and prints the figures to standard output: of two files all of them, of more a row for
+/// each. Of more, those that cannot be compared are rows as well, and the first such error is returned at the
+/// end.
 pub fn compare(work: &Compare) -> Result<Verdict, Error> {
-    try_compare(work).inspect_err(|error| Messages::Text.error(error))
+    match work.sides() {
+        Some(sides) => compare_two(work, sides).inspect_err(|error| Messages::Text.error(error)),
+        None => class::compare(work),
+    }
 }
 
-fn try_compare(work: &Compare) -> Result<Verdict, Error> {
+fn compare_two(work: &Compare, sides: [&Path; 2]) -> Result<Verdict, Error> {
     work.reading.begin()?;
-    check(work)?;
-    let [a, b] = images(work)?;
+    check(work, sides)?;
+    let [a, b] = images(work, sides)?;
     let found = Comparison::of(&a, &b, work.tolerance);
-    let verdict = match &found {
-        Ok(found) if found.differing <= work.max_differing => Verdict::Alike,
-        _ => Verdict::Different,
-    };
+    let verdict = Verdict::of(&found, work.max_differing);
     let report = match work.report {
-        Report::Text => table(work, &found, verdict),
-        Report::Json => format!("{:#}\n", object(work, &found, verdict)),
+        Report::Text => table(work, sides, &found, verdict),
+        Report::Json => format!("{:#}\n", object(work, sides, &found, verdict)),
     };
     stdout::print(&report).map_err(stdout::error)?;
     match (&work.output, &found) {
@@ -88,13 +121,29 @@ fn try_compare(work: &Compare) -> Result<Verdict, Error> {
     Ok(verdict)
 }
 
+impl Verdict {
+    fn of(found: &Result<Comparison, SizesDiffer>, max_differing: usize) -> Self {
+        match found {
+            Ok(found) if found.differing <= max_differing => Self::Alike,
+            _ => Self::Different,
+        }
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            Self::Alike => "alike",
+            Self::Different => "different",
+        }
+    }
+}
+
 /// Checks before any work that the picture of the differences can be written.
-fn check(work: &Compare) -> Result<(), Error> {
+fn check(work: &Compare, sides: [&Path; 2]) -> Result<(), Error> {
     let Some((path, format)) = &work.output else {
         return Ok(());
     };
     let output = Output::File(path.clone());
-    output.check_is_not(&work.sides, "it is one of those compared")?;
+    output.check_is_not(&sides, "it is one of those compared")?;
     if format.frames() != Frames::Last {
         return Err(Error::Refused(format!(
             "a picture of differences has 8 bits per channel: name a .png, not .{}",
@@ -105,77 +154,27 @@ fn check(work: &Compare) -> Result<(), Error> {
 }
 
 /// The pictures of both sides. A scene is traced as the picture on the other side was.
-fn images(work: &Compare) -> Result<[Image; 2], Error> {
-    let [a, b] = &work.sides;
+fn images(work: &Compare, [a, b]: [&Path; 2]) -> Result<[Image; 2], Error> {
     let [first, second] = [a, b].map(|path| is_picture(path).then(|| read(path)).transpose());
+    let traced = |path, model| trace(work, path, model)?.image();
     Ok(match (first?, second?) {
         (Some(first), Some(second)) => [first.image, second.image],
         (Some(picture), None) => {
-            let traced = trace(work, b, Some((a.as_path(), &picture)))?;
+            let traced = traced(b, Some(Model::of(a, &picture)))?;
             [picture.image, traced]
         }
-        (None, Some(picture)) => [
-            trace(work, a, Some((b.as_path(), &picture)))?,
-            picture.image,
-        ],
-        (None, None) => [trace(work, a, None)?, trace(work, b, None)?],
+        (None, Some(picture)) => [traced(a, Some(Model::of(b, &picture)))?, picture.image],
+        (None, None) => [traced(a, None)?, traced(b, None)?],
     })
-}
-
-fn is_picture(path: &Path) -> bool {
-    Language::of_path(path).is_err() && !assets::is_mesh(path)
-}
-
-fn read(path: &Path) -> Result<Recorded, Error> {
-    let mut file = file::open(path)?;
-    Recorded::read(&mut file).map_err(|source| Error::Picture {
-        path: path.to_owned(),
-        source,
-    })
-}
-
-/// Traces a scene, to be compared with a picture if there is one.
-fn trace(work: &Compare, path: &Path, picture: Option<(&Path, &Recorded)>) -> Result<Image, Error> {
-    let holds_light = picture.is_some_and(|(_, picture)| picture.holds_light);
-    let mut as_recorded =
-        picture.map(|(of, read)| AsRecorded::new([path, of], read, &work.tracing));
-    let over = match &as_recorded {
-        Some(as_recorded) => as_recorded.over(),
-        None => work.tracing.over(),
-    };
-    let mut loaded = work.reading.load(Messages::Text, path, Some(&over))?;
-    let scene = loaded.take_scene()?;
-    if let Some((output, _)) = &work.output {
-        let reason = format!("{} uses it", path.display());
-        Output::File(output.clone()).check_is_not(&loaded.read.files, &reason)?;
-    }
-    let own = scene.camera.size;
-    let tracing = match &mut as_recorded {
-        Some(as_recorded) => as_recorded.tracing(&scene),
-        None => work.tracing.clone(),
-    };
-    let frames = if holds_light {
-        Frames::LastWithValues
-    } else {
-        Frames::Last
-    };
-    let job = tracing.job(scene, loaded.read.images, frames)?;
-    if let Some(as_recorded) = &as_recorded {
-        as_recorded.tell(&job, own);
-    }
-    let frame = Tracer::new(tracing.execution).trace(job, None, || {})?;
-    let pixels = if holds_light {
-        in_8_bits(&frame)
-    } else {
-        Some(frame.pixels.clone())
-    };
-    pixels
-        .and_then(|pixels| Image::new(frame.size, pixels))
-        .ok_or(Error::Stopped)
 }
 
 /// The figures as a table.
-fn table(work: &Compare, found: &Result<Comparison, SizesDiffer>, verdict: Verdict) -> String {
+fn table(
+    work: &Compare,
+    sides: [&Path; 2],
+    found: &Result<Comparison, SizesDiffer>,
+    verdict: Verdict,
+) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
     let mut line = |name: &str, value: String| {
@@ -207,18 +206,19 @@ fn table(work: &Compare, found: &Result<Comparison, SizesDiffer>, verdict: Verdi
             }
         }
     }
-    let [a, b] = [0, 1].map(|side| visible(&work.sides[side].to_string_lossy()).into_owned());
-    let verdict = match verdict {
-        Verdict::Alike => "alike",
-        Verdict::Different => "different",
-    };
-    let _ = writeln!(text, "{a} and {b} are {verdict}");
+    let [a, b] = sides.map(|side| visible(&side.to_string_lossy()).into_owned());
+    let _ = writeln!(text, "{a} and {b} are {}", verdict.word());
     text
 }
 
 /// The figures as JSON. The keys are part of the interface of the command.
-fn object(work: &Compare, found: &Result<Comparison, SizesDiffer>, verdict: Verdict) -> Value {
-    let sides = [0, 1].map(|side| work.sides[side].to_string_lossy());
+fn object(
+    work: &Compare,
+    sides: [&Path; 2],
+    found: &Result<Comparison, SizesDiffer>,
+    verdict: Verdict,
+) -> Value {
+    let sides = sides.map(Path::to_string_lossy);
     let size = |size: Size| json!([size.width, size.height]);
     let mut object = match found {
         Err(SizesDiffer(sizes)) => json!({ "sizes": sizes.map(size) }),

@@ -9,6 +9,7 @@ mod compare;
 mod convert;
 mod explain;
 mod finding;
+mod folders;
 mod machine;
 mod merge;
 mod messages;
@@ -38,7 +39,7 @@ use text::{Diagnostic, counted, percentage};
 
 pub use bench::{Bench, bench};
 pub use check::{Check, check};
-pub use compare::{Compare, Report, Verdict, compare};
+pub use compare::{Compare, Report, ReportFormat, Verdict, compare};
 pub use convert::{Convert, convert};
 pub use explain::{Explain, explain};
 pub use merge::{Merge, MergePurpose, merge};

@@ -18,6 +18,8 @@ pub(super) enum Messages {
     Text,
     /// An object a line, with the event `note`, `warning` or `error`.
     Json,
+    /// Not at all: what is found is told elsewhere.
+    Off,
 }
 
 impl Messages {
@@ -51,6 +53,7 @@ impl Messages {
                     print(&report::object(&name, text, finding).to_string());
                 }
             }
+            Self::Off => {}
         }
     }
 
@@ -85,6 +88,7 @@ impl Messages {
         match self {
             Self::Text => print(&format!("{kind}: {message}")),
             Self::Json => print(&json!({ "event": kind, "message": message }).to_string()),
+            Self::Off => {}
         }
     }
 }

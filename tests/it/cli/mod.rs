@@ -3,6 +3,7 @@
 mod advice;
 mod arguments;
 mod bench;
+mod class;
 mod comparing;
 mod config;
 mod converting;
