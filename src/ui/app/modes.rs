@@ -4,8 +4,8 @@
 use super::room::{Room, Row};
 use super::{
     Compare, Gallery, Inspect, Moving, Opening, Sequence, Shared, Thumbnails, Tool, Trace, Tutor,
-    View, Whereabouts, camera, compare, display, edit, files, history, inspect, keys, samples, select,
-    sequence, text, trace, transform, whereabouts,
+    View, Whereabouts, camera, compare, display, edit, files, history, inspect, keys, samples,
+    select, sequence, text, trace, transform, whereabouts,
 };
 use crate::keymap::{Entry, Key, Keymap, Mode, RankedHint, RowId};
 use crate::msg::Effect;

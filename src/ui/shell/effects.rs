@@ -30,7 +30,7 @@ use crate::queue::{Ended, Service};
 use crate::recovery::{self, Edits, End, Keeper, Outcome, Request};
 use crate::reel::Reel;
 use crate::reference::{Pair, ReferenceId, ReferenceSource};
-use crate::service::remembering;
+use crate::service::remembering::{self, Request as Remember};
 use crate::service::scene_loader::SceneLoader;
 use crate::service::writing::Writers;
 use crate::service::{self, Answering};
@@ -58,7 +58,7 @@ pub(crate) struct Runtime {
     freeing: Service<Arc<dyn Any + Send + Sync>>,
     writers: Writers,
     keeper: Keeper,
-    recent: Service<remembering::Request>,
+    recent: Service<Remember>,
     assets: Answering<Wanted>,
     tracks: Answering<PathBuf>,
     references: Answering<(ReferenceId, ReferenceSource)>,
@@ -256,14 +256,10 @@ impl Runtime {
                 let refused = not_saved(self.writers.save(id, path, text, guard));
                 return Ok(refused.map(|outcome| Msg::Saved(id, outcome)));
             }
-            Effect::NoteRecent(scene) => self.recent.request(remembering::Request::Note(scene))?,
-            Effect::ListRecent => self.recent.request(remembering::Request::List)?,
-            Effect::KeepLesson(place) => {
-                self.recent.request(remembering::Request::Lesson(place))?;
-            }
-            Effect::KeepPanels(sizes) => {
-                self.recent.request(remembering::Request::Panels(sizes))?;
-            }
+            Effect::NoteRecent(scene) => self.recent.request(Remember::Note(scene))?,
+            Effect::ListRecent => self.recent.request(Remember::List)?,
+            Effect::KeepLesson(place) => self.recent.request(Remember::Lesson(place))?,
+            Effect::KeepPanels(sizes) => self.recent.request(Remember::Panels(sizes))?,
             Effect::Watch(path) => self.reader.watch(path)?,
             Effect::Tell(message) => self.reader.tell(message)?,
             Effect::ForgetBuffer => self.reader.forget_buffer()?,
