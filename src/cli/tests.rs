@@ -157,7 +157,8 @@ fn what_may_differ_reaches_the_comparison() {
         other => panic!("{line}: {other:?}"),
     };
     let default = compare("halflight compare a.bmp b.ray");
-    assert_eq!(default.sides, [PathBuf::from("a.bmp"), "b.ray".into()]);
+    assert_eq!(default.reference, PathBuf::from("a.bmp"));
+    assert_eq!(default.submissions, [PathBuf::from("b.ray")]);
     assert_eq!((default.tolerance, default.max_differing), (0, 0));
     assert_eq!((default.report, default.output), (Report::Text, None));
     let given =
@@ -204,7 +205,7 @@ fn wrong_arguments_are_rejected_with_a_reason() {
         (
             "halflight a b",
             "unexpected second scene b: only one can be opened; the commands are render, merge, show, \
-             compare, explain, convert, bench, check, completions, man, lsp and doctor",
+             compare, explain, convert, bench, check, tutor, completions, man, lsp, samples and doctor",
         ),
         (
             "halflight --color blue a",

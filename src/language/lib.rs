@@ -213,29 +213,6 @@ languages! {
 #[derive(Clone, Debug)]
 pub struct Source(OneOf);
 
-impl Source {
-    /// The literals of the view's fields for a camera, one per component.
-    pub fn view_literals(&self, camera: &Camera) -> Vec<Vec<String>> {
-        view::literals(&self.view_fields(), &self.view_numbers(camera))
-    }
-
-    /// The camera after a component of a view field is changed.
-    ///
-    /// # Errors
-    ///
-    /// Fails with a description of the permitted values if `literal` is not one.
-    pub fn view_with(
-        &self,
-        camera: &Camera,
-        at: (usize, usize),
-        literal: &str,
-    ) -> Result<Camera, String> {
-        let numbers =
-            view::with_component(&self.view_fields(), self.view_numbers(camera), at, literal)?;
-        Ok(self.view_camera(&numbers, camera))
-    }
-}
-
 /// The error for a file name without the extension of a known language.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{path}: not a scene: scenes end in {}", extensions(), path = .0.display())]

@@ -1,11 +1,35 @@
 //! Cameras in a language: the literals of the view's fields.
 
+use super::Source;
 use super::field_spans::FieldSpans;
 use super::schema::{Field, Kind};
+use scene::Camera;
 use text::{Edit, Span, line_end, line_start, next_line, parse_number, spell_like};
 
 /// The numbers of the view's fields, one per component; for a choice, the index of the word.
 pub(super) type Numbers = Vec<f64>;
+
+impl Source {
+    /// The literals of the view's fields for a camera, one per component.
+    pub fn view_literals(&self, camera: &Camera) -> Vec<Vec<String>> {
+        literals(&self.view_fields(), &self.view_numbers(camera))
+    }
+
+    /// The camera after a component of a view field is changed.
+    ///
+    /// # Errors
+    ///
+    /// Fails with a description of the permitted values if `literal` is not one.
+    pub fn view_with(
+        &self,
+        camera: &Camera,
+        at: (usize, usize),
+        literal: &str,
+    ) -> Result<Camera, String> {
+        let numbers = with_component(&self.view_fields(), self.view_numbers(camera), at, literal)?;
+        Ok(self.view_camera(&numbers, camera))
+    }
+}
 
 /// The literals of the view's fields for these numbers, one per component.
 pub(super) fn literals(fields: &[&'static Field], numbers: &[f64]) -> Vec<Vec<String>> {

@@ -2,6 +2,7 @@
 
 mod beginning;
 mod convert;
+mod digits;
 mod line_ends;
 mod motion;
 mod picture_lint;

@@ -182,7 +182,10 @@ fn check_junit(xml: &str, tests: usize, failures: usize, errors: usize) {
         }
     }
     assert!(suite.attribute("name").is_some());
-    let cases: Vec<_> = suite.children().filter(roxmltree::Node::is_element).collect();
+    let cases: Vec<_> = suite
+        .children()
+        .filter(roxmltree::Node::is_element)
+        .collect();
     assert_eq!(cases.len(), tests);
     let mut found = [0, 0];
     for case in cases {

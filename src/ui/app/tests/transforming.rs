@@ -265,12 +265,13 @@ scripts! {
         ");
     };
 
-    // The top of the table is at -0.5; the other sphere has the radius 1.
+    // The camera looks along the vertical: what is in the middle of the picture carries what is added,
+    // and what is below it is hidden.
     added_things_stand_on_what_is_below_or_in_the_middle_of_the_picture: {
         let table = "obj box ID 2 mat ID 1  0 -1.5 0  1 0 0  0 1 0  0 0 1  90 2 90";
         scene("a.dat", DAT).but(&format!(r"0 0 0  1\n +> {table}\n")).play(r"
             @shows 0
-            asphere<Enter> | lines obj sphere ID 3 mat ID 1  0 0.5 2  1
+            asphere<Enter> | lines obj sphere ID 3 mat ID 1  0 0 2  1
         ");
         scene("a.dat", DAT).but("0 0 10  0 0 0 => 0 0 10  0 0 -50").play(r"
             @shows 0

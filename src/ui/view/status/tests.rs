@@ -166,7 +166,7 @@ fn hints_for_help_commands_and_quitting_outlast_all_others() {
     for (width, shown) in [
         (
             140,
-            " j/k select  Enter edit  a add  v camera  i inspect  / filter  F5 trace  b export",
+            " j/k select  Enter edit  a add  v camera  i inspect  / filter  W where  F5 trace  b export",
         ),
         (80, " Enter edit  a add  i inspect  F5 trace  b export "),
         (60, " Enter edit  i inspect  F5 trace  b export "),
