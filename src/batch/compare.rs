@@ -2,6 +2,7 @@
 //! many with one.
 
 mod class;
+mod compared;
 mod matching;
 mod report;
 mod row;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::StructureError;
-use super::digits;
+use super::form::digits::{self, Lengths};
 use super::form::orthonormal;
 use super::schema::position::At;
 use geometry::FrameNumbers;
@@ -46,15 +46,6 @@ pub(super) fn straight(
         }
     }
     Ok(new)
-}
-
-/// The lengths of directions that become orthogonal.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Lengths {
-    /// They become 1.
-    Unit,
-    /// They stay, since they count.
-    Kept,
 }
 
 /// The lengths along x, y and z of a frame of the world's axes in any order.

@@ -11,7 +11,6 @@ pub mod coefficients;
 mod convert;
 mod cse167;
 mod dat;
-mod digits;
 mod engine;
 mod field_spans;
 mod form;

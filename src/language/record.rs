@@ -2,13 +2,11 @@
 
 use glam::{DMat3, DVec3};
 
+use super::form::digits::UNIT_TOLERANCE;
 use super::report::{Name, out_of_range};
 use super::schema::{Field, Kind};
 use geometry::{FLATTEST, normalise};
 use text::{Diagnostic, Findings, Span, concise};
-
-/// The tolerance for a direction's length around 1 and for dot products of two around 0.
-pub(super) const UNIT_TOLERANCE: f64 = 1e-3;
 
 /// The numbers of one node, as far as the text gives them.
 #[derive(Clone, Copy, Debug)]

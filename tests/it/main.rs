@@ -15,6 +15,7 @@ mod harness;
 mod making;
 mod pictures;
 mod pty;
+mod readme;
 mod rooms;
 mod watch;
 mod xml;

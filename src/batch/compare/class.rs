@@ -4,8 +4,9 @@
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
+use super::compared::Class;
 use super::matching::{Matching, Pair};
-use super::row::{Counts, Found, Row, shown};
+use super::row::{Counts, Found, Row};
 use super::side::{Model, Traced, Untraced, is_picture, read, trace};
 use super::thumbnail::{Thumbnail, Thumbnails};
 use super::{Compare, Report, ReportFormat, Verdict, matching, report, table};
@@ -17,14 +18,6 @@ use ::render::{Explanation, Job, PictureMetadata, PreparedScene, Provenance};
 use file::ReadError;
 use language::Source;
 use text::{Diagnostic, Findings, counted};
-
-/// Everything that documents tell.
-pub(super) struct Class<'c> {
-    pub(super) work: &'c Compare,
-    /// The references that were compared with, in order, and what they look like.
-    pub(super) references: Vec<(PathBuf, Option<Thumbnail>)>,
-    pub(super) rows: Vec<Row>,
-}
 
 /// Compares all and reports them.
 pub(super) fn compare(work: &Compare) -> Result<Verdict, Error> {
@@ -357,28 +350,4 @@ fn placed(finding: &Diagnostic, text: &str) -> String {
     let position = finding.shown(text).position;
     let message = finding.message_with_file();
     format!("line {}:{}: {message}", position.line, position.column)
-}
-
-impl Class<'_> {
-    /// What is compared with, in words.
-    pub(super) fn reference_words(&self) -> String {
-        shown(&self.work.reference)
-    }
-
-    /// What counts as alike, in words.
-    pub(super) fn rule_words(&self) -> String {
-        let Compare {
-            tolerance,
-            max_differing,
-            ..
-        } = self.work;
-        let pixels = counted(*max_differing, "pixel");
-        format!("alike: at most {pixels} that differ by more than {tolerance} of 255")
-    }
-
-    /// The picture of a reference, and its number.
-    pub(super) fn reference(&self, path: &Path) -> Option<(usize, &Thumbnail)> {
-        let at = self.references.iter().position(|(of, _)| of == path)?;
-        Some((at, self.references[at].1.as_ref()?))
-    }
 }

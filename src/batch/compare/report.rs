@@ -8,7 +8,7 @@ mod markup;
 use serde_json::{Value, json};
 
 use super::Verdict;
-use super::class::Class;
+use super::compared::Class;
 use super::row::{Row, Tally, shown};
 use ::compare::Comparison;
 use scene::Size;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::class::Class;
+use super::compared::Class;
 use super::row::{Row, Tally, shown};
 
 /// A line for each submission, below it why it is not alike, and the numbers of all at the end.

@@ -9,13 +9,13 @@ use glam::{DAffine3, DVec3};
 use super::Source;
 use super::lower::Placed;
 use super::schema::{POP, PUSH, ROTATE, SCALE, SCHEMA, SPHERE, TRANSLATE, TRI, TRI_NORMAL};
-use crate::digits;
 use crate::engine::identities::kind;
 use crate::engine::motion::Moves;
 use crate::engine::places::{Place, fields};
 use crate::field_spans::FieldSpans;
+use crate::form::digits::Lengths;
+use crate::form::{self, digits};
 use crate::form::{Along, Form, rounded};
-use crate::frame::Lengths;
 use crate::schema::{Makes, Part, Record, Schema};
 use crate::spelling::rounded_off;
 use crate::structure::{Pose, number, replacements};
@@ -168,7 +168,7 @@ impl Source {
                 (Part::Direction, Some(old), Motion::Rotate { .. }) => {
                     let moved = motion.direction(transform.transform_vector3(old));
                     let new = back.transform_vector3(moved);
-                    let within = digits::tolerance(motion);
+                    let within = form::tolerance(motion);
                     digits::direction(old, new, Lengths::Unit, within)
                         .to_array()
                         .to_vec()
@@ -221,7 +221,7 @@ impl Source {
         let decimals = decimals + finer(frame);
         let mut new = transforms(frame, placed.centre, motion)?;
         for one in &mut new {
-            one.shorten(digits::tolerance(motion), decimals);
+            one.shorten(form::tolerance(motion), decimals);
         }
         let lines = |indent: &str, before: &str, behind: &str| -> String {
             let lines = new.iter().map(Transform::to_string);

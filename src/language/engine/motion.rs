@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
-use crate::digits;
 use crate::field_spans::FieldSpans;
+use crate::form::digits::Lengths;
+use crate::form::{self, digits};
 use crate::form::{Form, rounded};
-use crate::frame::{Lengths, frameless, straight};
+use crate::frame::{frameless, straight};
 use crate::node::Node;
 use crate::schema::layout::Unfit;
 use crate::schema::{Field, Part, Record, Schema};
@@ -190,7 +191,7 @@ pub(crate) trait Moves {
                             let new = motion.point(old);
                             [0, 1, 2].map(|at| rounded(old[at], new[at], decimals))
                         }
-                        Part::Direction => digits::turned(old, motion).to_array(),
+                        Part::Direction => form::turned(old, motion).to_array(),
                         Part::None | Part::Axis(_) | Part::Length(..) => return None,
                     };
                     Some(replacements(self.text(), &placed.spans, &new))
@@ -258,7 +259,7 @@ pub(crate) trait Moves {
             };
         }
         if turns && let Some(layout) = &record.layout {
-            layout.shorten_axes(old, &mut new, digits::tolerance(motion));
+            layout.shorten_axes(old, &mut new, form::tolerance(motion));
         }
         Ok(replacements(self.text(), spans, &new))
     }

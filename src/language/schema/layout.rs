@@ -5,9 +5,9 @@ use glam::DVec3;
 
 use super::position::At;
 use super::{Field, Kind, Part, Slot};
-use crate::digits;
+use crate::form::digits;
+use crate::form::digits::Lengths;
 use crate::form::{Form, rotated};
-use crate::frame::Lengths;
 use geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Solid, Sphere, normalise};
 
 /// The unit solids.

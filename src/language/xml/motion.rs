@@ -7,10 +7,10 @@ use super::Source;
 use super::origins::fields::numbers;
 use super::origins::{Role, insert};
 use super::parameter::Parameter;
-use crate::digits;
 use crate::field_spans::FieldSpans;
+use crate::form::digits::Lengths;
+use crate::form::{self, digits};
 use crate::form::{Along, Motion, rotation, rounded};
-use crate::frame::Lengths;
 use crate::structure::{Pose, number};
 use crate::view::spelled;
 use crate::{Node, SceneText, StructureError};
@@ -106,7 +106,7 @@ impl Source {
             } else {
                 let mut moved = with_factor(motion.direction(vector), factor);
                 let [before, wanted] = [&old[..], &moved].map(DVec3::from_slice);
-                let within = digits::tolerance(motion);
+                let within = form::tolerance(motion);
                 let written = digits::direction(before, wanted, Lengths::Unit, within);
                 moved[..3].copy_from_slice(&written.to_array());
                 moved.to_vec()
@@ -173,7 +173,7 @@ impl Source {
                 let local = conformal(outside.matrix3).ok_or_else(uneven)?;
                 let axis = normalise(inside.matrix3 * axis).ok_or_else(uneven)?;
                 let turn = rotation(axis, local.signum() * angle);
-                self.turned(element, (linear, last), turn, digits::tolerance(motion))
+                self.turned(element, (linear, last), turn, form::tolerance(motion))
             }
             Motion::Scale { factor, along, .. } => {
                 let mut factors = DVec3::ONE;

@@ -56,15 +56,6 @@ fn saved_edits_reach_the_file_and_nothing_else_is_written() {
     assert_eq!(place.names(), names);
 }
 
-#[test]
-fn the_picture_in_the_readme_can_be_made_again() {
-    let (screen, _) = played(&root().join("scenes/interface.keys"), "80x24");
-    assert!(
-        screen.contains("EDIT") && screen.contains("the glas"),
-        "{screen}"
-    );
-}
-
 /// The keys of the tutorial: the indented lines after its heading.
 fn tutorial() -> String {
     let page = fs::read_to_string(root().join("scenes/README.md")).expect("a page");

@@ -31,7 +31,7 @@ fn an_exported_sequence_is_that_of_a_render() {
             screen.contains(&format!("wrote ui/{name}: 9 frames")),
             "{screen}"
         );
-        assert!(screen.contains("SEQUENCE   frame 2/8"), "{screen}");
+        assert!(screen.contains("SEQUENCE   frame 2 (3/9)"), "{screen}");
         let options = match size.trim().split_once(' ') {
             Some((size, spp)) => format!(" --size {size} --spp {spp}"),
             None => String::new(),

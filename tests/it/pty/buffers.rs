@@ -124,7 +124,7 @@ fn the_picture_follows_a_buffer_and_edits_return_to_it() {
         .editor
         .ask("textDocument/documentHighlight", &place_of);
     assert_eq!(highlights, Value::Null);
-    session.wait_for("▸ ● object 2 (sphere)");
+    session.wait_for("▸ ● the green one");
     let start = json!({ "line": 3, "character": 0 });
     let range = json!({ "start": start, "end": start });
     let document = json!({ "uri": editor.uri });
@@ -134,7 +134,7 @@ fn the_picture_follows_a_buffer_and_edits_return_to_it() {
     assert_eq!(actions[0]["title"], "Show in Halflight", "{actions}");
     let command = &actions[0]["command"];
     editor.editor.ask("workspace/executeCommand", command);
-    session.wait_for("▸ ● object 1 (sphere)");
+    session.wait_for("▸ ● the red one");
     session.send("E");
     let shown = editor.editor.wait_for("window/showDocument");
     assert_eq!(shown["params"]["selection"]["start"]["line"], 3);

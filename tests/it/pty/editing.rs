@@ -37,7 +37,7 @@ fn a_scene_is_edited_shown_reloaded_and_exported() {
     session.send("w");
     session.wait_for("wrote default.ray");
     wait_until_gone(&mut session, "[+]");
-    let saved = DEFAULT.replacen("0.5 0.55 0.75 ", "2 0.55 0.75 ", 1);
+    let saved = DEFAULT.replacen("0.5 0.55 0.75 ", "2 0.55 0.75   ", 1);
     assert_eq!(place.read("default.ray"), saved);
 
     let bright = picture(session.screen());
@@ -142,7 +142,7 @@ fn the_embedded_scene_is_saved_under_a_name() {
     session.wait_for(":w ");
     session.send("mine.ray\r");
     session.wait_for("wrote mine.ray");
-    let saved = DEFAULT.replacen("0.5 0.55 0.75 ", "2 0.55 0.75 ", 1);
+    let saved = DEFAULT.replacen("0.5 0.55 0.75 ", "2 0.55 0.75   ", 1);
     assert_eq!(place.read("mine.ray"), saved);
     quit(session);
 }
@@ -172,7 +172,7 @@ fn a_click_selects_the_object_under_it() {
     let mut session = place.open();
     let mode = session.screen().mouse_protocol_mode();
     assert_eq!(mode, MouseProtocolMode::ButtonMotion);
-    for (colour, name) in [(GREEN, "▸ ● object 2"), (RED, "▸ ● object 1")] {
+    for (colour, name) in [(GREEN, "▸ ● the green one"), (RED, "▸ ● the red one")] {
         let Pixels { row, column, .. } = wait_for_colour(&mut session, colour);
         let at = format!("0;{};{}", column + 1, row + 1);
         session.send(format!("\x1b[<{at}M\x1b[<{at}m"));

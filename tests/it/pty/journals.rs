@@ -304,7 +304,7 @@ fn edits_of_a_new_scene_without_a_file_are_offered_in_a_new_scene() {
     let mut session = place.start(&[], WIDE);
     session.wait_for("a new scene: :w FILE writes it");
     session.wait_for(QUESTION);
-    session.wait_for("differs from the text. Restore them?");
+    session.wait_for("Restore them?");
     session.send("r");
     session.wait_for("restored");
     session.send(":q!\r");

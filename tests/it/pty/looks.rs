@@ -176,7 +176,7 @@ fn colours_are_limited_to_those_of_the_terminal() {
     let mut session = start(&["balls.ray"], &[("NO_COLOR", "1")]);
     session.wait("a picture of characters", |screen| {
         let text = screen.contents();
-        text.contains("64 spp") && ["░", "▓"].iter().all(|ink| text.contains(ink))
+        text.contains("16 spp") && ["/", "█"].iter().all(|ink| text.contains(ink))
     });
     assert!(
         colours(session.screen())

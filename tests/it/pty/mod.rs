@@ -23,13 +23,14 @@ use vt100::{Color, MouseProtocolMode, Screen};
 
 use crate::harness::{BEGIN_FRAME, CTRL_L, Pixels, Session, last, picture};
 
-/// Two balls lit only by ambient light, so that their pixels have their own colours.
+/// Two balls lit only by ambient light, so that their pixels have their own colours. Comments that begin
+/// with backslashes keep no column, so that an edit changes nothing but its number.
 const BALLS: &str = "\
 1 1 1
 1 0 9 0 0 0 0
 2
-sphere -1 0 0 .80  1 0 0  0 0 0  0 0 0  1 0 0 1  // the red one
-sphere  1 0 0 0.8  0 1 0  0 0 0  0 0 0  1 0 0 1  // the green one
+sphere -1 0 0 .80  1 0 0  0 0 0  0 0 0  1 0 0 1  \\\\ the red one
+sphere  1 0 0 0.8  0 1 0  0 0 0  0 0 0  1 0 0 1  \\\\ the green one
 // view: eye 0 0 8 target 0 0 0 up 0 1 0 fov 40 size 80 60
 ";
 

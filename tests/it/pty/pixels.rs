@@ -122,10 +122,10 @@ fn kitty_gets_pictures_until_the_end() {
         assert!(500 < count, "{count} of {colour:?}");
     }
 
-    // A page is not covered by it, and gives its place back.
+    // What lies over it is not covered by it, and gives its place back.
     let sent = session.written.len();
-    session.send("?");
-    session.wait_for(" Keys ");
+    session.send(":");
+    session.wait_for(":export");
     wait_for_bytes(&mut session, REMOVE, sent);
     assert!(!picture(session.screen()).is_empty(), "half blocks again");
     let sent = session.written.len();
@@ -278,12 +278,12 @@ fn sixels_fill_their_cells_and_are_erased_by_cells() {
     assert!(picture(session.screen()).is_empty());
     // What a page covers is drawn in full: the screen is erased first.
     let sent = session.written.len();
-    session.send("?");
-    session.wait_for(" Keys ");
+    session.send(":");
+    session.wait_for(":export");
     wait_for_bytes(&mut session, b"\x1b[2J", sent);
     assert!(!picture(session.screen()).is_empty());
     session.send(ESC);
-    wait_until_gone(&mut session, " Keys ");
+    wait_until_gone(&mut session, ":export");
     quit(session);
 }
 

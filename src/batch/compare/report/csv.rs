@@ -1,6 +1,6 @@
 //! Many comparisons as a table for spreadsheets, by RFC 4180.
 
-use crate::compare::class::Class;
+use crate::compare::compared::Class;
 use crate::compare::row::Row;
 use ::compare::Comparison;
 

@@ -7,7 +7,7 @@ use hmac_sha256::Hash;
 
 use super::markup::escaped;
 use super::names;
-use crate::compare::class::Class;
+use crate::compare::compared::Class;
 use crate::compare::row::{Row, Tally, by};
 use crate::compare::table::decibels;
 use crate::compare::thumbnail::Thumbnail;

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use super::markup::escaped;
 use super::{names, summary};
 use crate::compare::Verdict;
-use crate::compare::class::Class;
+use crate::compare::compared::Class;
 use crate::compare::row::{Row, Tally};
 
 /// The report.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::lessons::{LESSONS, Lesson};
+use super::lessons::{LESSONS, Lesson, next_after};
 use crate::app::{CarriedScene, Shared};
 
 /// A lesson to begin, or to continue.
@@ -32,7 +32,7 @@ impl Begun {
     /// the next one.
     pub(super) fn to_text(lesson: &'static Lesson, step: usize, shared: &Shared) -> String {
         if step == lesson.steps.len() {
-            let next = lesson.next().unwrap_or(lesson);
+            let next = next_after(lesson).unwrap_or(lesson);
             return format!("lesson {}\nstep 0\n", next.name);
         }
         let path = shared.disk.path.as_deref().map(file::absolute);

@@ -1,7 +1,7 @@
 //! The lesson in making a scene.
 
 use super::super::goals;
-use super::{Lesson, Step};
+use super::step::{Lesson, Step};
 use crate::app::CarriedScene;
 use language::Language;
 

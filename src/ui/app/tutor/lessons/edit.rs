@@ -1,7 +1,7 @@
 //! The lesson in changing a scene and finding out why a pixel has its colour.
 
 use super::super::goals;
-use super::{Lesson, Step};
+use super::step::{Lesson, Step};
 use crate::app::CarriedScene;
 use language::Language;
 

@@ -1,7 +1,7 @@
 //! The lesson in mending scenes: each is broken, and is judged by its picture.
 
 use super::super::goals;
-use super::{Lesson, Step};
+use super::step::{Lesson, Step};
 use crate::app::CarriedScene;
 use language::Language;
 

@@ -1,12 +1,15 @@
 //! The form of a solid without regard to its kind: a frame and half its extents. Solids of one form
 //! fill the same box, so that one kind can replace another.
 
+pub(crate) mod digits;
+
 use glam::{DMat3, DVec3};
 
-use super::digits;
-use super::record::UNIT_TOLERANCE;
+use digits::{Lengths, UNIT_TOLERANCE};
 use geometry::normalise;
 use scene::Camera;
+
+pub(crate) use digits::{rotation, rounded};
 
 /// An oriented box that a solid fills.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,6 +91,9 @@ pub enum Along {
     Own(usize),
 }
 
+/// The largest angle as a share of the turn itself, so that small turns are made as well.
+const SHARE: f64 = 0.01;
+
 impl Motion {
     /// Whether it changes nothing.
     pub fn is_identity(&self) -> bool {
@@ -130,7 +136,7 @@ impl Motion {
         Camera {
             eye: place(eye, self.point(eye)),
             target: place(target, self.point(target)),
-            up: digits::turned(up, self),
+            up: turned(up, self),
             ..*camera
         }
     }
@@ -231,41 +237,27 @@ pub(super) fn rotated(n: DVec3) -> [DVec3; 3] {
     ]
 }
 
-/// Rodrigues' rotation about a unit vector, right-handed, in degrees; exact for quarter turns.
-pub(super) fn rotation(axis: DVec3, angle: f64) -> DMat3 {
-    let turned = angle % 360.0;
-    let (sin, cos) = match turned {
-        0.0 => (0.0, 1.0),
-        90.0 | -270.0 => (1.0, 0.0),
-        180.0 | -180.0 => (0.0, -1.0),
-        270.0 | -90.0 => (-1.0, 0.0),
-        _ => libm::sincos(turned.to_radians()),
-    };
-    let turned = |v: DVec3| cos * v + sin * axis.cross(v) + (1.0 - cos) * axis.dot(v) * axis;
-    DMat3::from_cols(turned(DVec3::X), turned(DVec3::Y), turned(DVec3::Z))
-}
-
-/// The number that a moved one is written as: the old one if they differ by rounding errors only,
-/// with the digits of the old one after a step of no more than this number of decimals, otherwise
-/// rounded to them.
-pub(super) fn rounded(old: f64, new: f64, decimals: usize) -> f64 {
-    let error = 1e-12 * old.abs().max(new.abs());
-    if (new - old).abs() <= error {
-        return old;
-    }
-    let step = text::rounded(new - old, decimals);
-    if (old + step - new).abs() <= error {
-        let own = text::decimals(&old.to_string());
-        return text::rounded(old + step, decimals.max(own));
-    }
-    text::rounded(new, decimals)
-}
-
 /// The factor of a uniform scaling; `None` if the matrix is anything more.
 pub(super) fn scaling([x, y, z]: [DVec3; 3]) -> Option<f64> {
     let size = x.x;
     let is_all = x == size * DVec3::X && y == size * DVec3::Y && z == size * DVec3::Z;
     (is_all && 0.0 < size && size.is_finite()).then_some(size)
+}
+
+/// The angle, in radians, by which a direction may miss where a motion takes it.
+pub(crate) fn tolerance(motion: &Motion) -> f64 {
+    let Motion::Rotate { angle, .. } = *motion else {
+        return digits::TURN;
+    };
+    let rest = angle % 360.0;
+    let turn = rest.abs().min(360.0 - rest.abs()).to_radians();
+    digits::TURN.min(SHARE * turn)
+}
+
+/// The direction that is written for one after a motion.
+pub(crate) fn turned(old: DVec3, motion: &Motion) -> DVec3 {
+    let new = motion.direction(old);
+    digits::direction(old, new, Lengths::Unit, tolerance(motion))
 }
 
 #[cfg(test)]
