@@ -242,7 +242,7 @@ fn wrong_arguments_are_rejected_with_a_reason() {
             "halflight render a -o b.bmp --size 1x4294967296",
             "such as 800x600",
         ),
-        ("halflight compare a", "<B>"),
+        ("halflight compare a", "<SUBMISSION>..."),
         ("halflight explain a 1", "<Y>"),
         (
             "halflight explain a 1 2 --sample 65536",

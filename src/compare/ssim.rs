@@ -59,7 +59,7 @@ fn mean_of(plane: &Plane) -> Plane {
     plane.convolved(&weights, &weights)
 }
 
-/// E[ab] − E[a] E[b]; of a plane with itself, its variance.
+/// The mean of a·b less the product of the means; of a plane with itself, its variance.
 fn covariance([a, b]: [&Plane; 2], [mean_a, mean_b]: [&Plane; 2]) -> Plane {
     let both = mean_of(&product(a, b));
     both.with(&product(mean_a, mean_b), |both, apart| both - apart)
